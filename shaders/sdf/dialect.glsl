@@ -1,0 +1,4 @@
+// What the GPU needs to compile the files that C++ compiles too; C++ has its own in src/core/sdf/.
+#define real float
+float pick(float s, float a, float b) { return s < 0.0 ? a : b; }
+float square(float a) { return a * a; }

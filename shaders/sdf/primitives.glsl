@@ -1,0 +1,103 @@
+// Signed distances of the primitives, each centred on its own origin: metres, y up, inside is negative.
+//
+// Compiled twice: by the GPU's driver, and by the C++ compiler inside `template <class real> struct Sdf`
+// (src/core/sdf/glsl.h) with real = float, double, Dual and Interval. The dialect both understand: `real` for float,
+// literals end in f and are exact in binary or written as real(…) expressions, no swizzles, no branch on a real but
+// pick(s, a, b), which is a where s < 0 and b elsewhere; square(a) instead of a * a.
+//
+// A parameter's name and type here are those of its row in src/core/sdf/primitives.cpp and of the scene file.
+
+real sdSphere(vec3 p, real radius) {
+    return length(p) - radius;
+}
+
+// The distance to a rounded corner region, q being how far a point lies beyond each face of a box.
+real outside(vec3 q) { return length(max(q, 0.0f)) + min(max(q.x, max(q.y, q.z)), 0.0f); }
+real outside(vec2 q) { return length(max(q, 0.0f)) + min(max(q.x, q.y), 0.0f); }
+
+real sdBox(vec3 p, vec3 size, real round) {
+    real r = min(round, 0.5f * min(size.x, min(size.y, size.z)));
+    return outside(abs(p) - size * real(0.5f) + r) - r;
+}
+
+// The half-space normal·p <= offset is solid.
+real sdPlane(vec3 p, vec3 normal, real offset) {
+    return dot(p, normal) - offset;
+}
+
+real sdTorus(vec3 p, real major, real minor) {
+    return length(vec2(length(vec2(p.x, p.z)) - major, p.y)) - minor;
+}
+
+real sdCylinder(vec3 p, real radius, real height, real round) {
+    real r = min(round, min(radius, 0.5f * height));
+    return outside(vec2(length(vec2(p.x, p.z)) - radius + r, abs(p.y) - 0.5f * height + r)) - r;
+}
+
+real sdCapsule(vec3 p, real radius, real height) {
+    return length(vec3(p.x, max(abs(p.y) - 0.5f * height, 0.0f), p.z)) - radius;
+}
+
+// A frustum between a base of `radius` and a top of `radius2`. The nearest feature is a disc (the caps) or the slanted
+// side, a segment in the half-plane of the radius q.x and the height q.y.
+real sdCone(vec3 p, real radius, real radius2, real height) {
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    real h = 0.5f * height;
+    vec2 cap = vec2(max(q.x - pick(q.y, radius, radius2), 0.0f), abs(q.y) - h);
+
+    vec2 side = vec2(radius2 - radius, height);
+    vec2 from = vec2(q.x - radius, q.y + h);
+    real along = (from.x * side.x + from.y * side.y) / (square(side.x) + square(side.y));
+    real t = min(max(along, 0.0f), 1.0f);
+    vec2 slant = from - side * t;
+
+    real nearest = min(square(cap.x) + square(cap.y), square(slant.x) + square(slant.y));
+    real beyond = max(from.x * side.y - from.y * side.x, cap.y);
+    return sqrt(nearest) * pick(beyond, real(-1.0f), real(1.0f));
+}
+
+// A bound: the unit ball's distance in the stretched space, brought back by the least stretch. Its slope is at most 1.
+real sdEllipsoid(vec3 p, vec3 radii) {
+    return (length(p / radii) - 1.0f) * min(radii.x, min(radii.y, radii.z));
+}
+
+// The nearest feature is a face, unless the point lies over one of its three edges, where t runs along the edge.
+real octahedronEdge(real a, real b, real c, real radius) {
+    real t = min(max(0.5f * (c - b + radius), 0.0f), radius);
+    return length(vec3(a, b - radius + t, c - t));
+}
+real sdOctahedron(vec3 p, real radius) {
+    vec3 q = abs(p);
+    real m = q.x + q.y + q.z - radius;
+    return pick(3.0f * q.x - m, octahedronEdge(q.x, q.y, q.z, radius),
+           pick(3.0f * q.y - m, octahedronEdge(q.y, q.z, q.x, radius),
+           pick(3.0f * q.z - m, octahedronEdge(q.z, q.x, q.y, radius), m / sqrt(real(3.0f)))));
+}
+
+// Reflects p to the near side of the line through the origin in the direction (c, s), where `on` is negative.
+vec2 foldAcross(vec2 p, real c, real s, real on) {
+    real beyond = pick(on, 2.0f * max(p.y * c - p.x * s, 0.0f), 0.0f);
+    return vec2(p.x + beyond * s, p.y - beyond * c);
+}
+
+// The mirrors of a regular polygon lie at the multiples of pi/sides; folding across the 8th, 4th, 2nd and 1st brings any
+// point into the wedge between a side's middle (along x) and its corner. `apothem` is the distance of a side.
+real sdPrism(vec3 p, real sides, real radius, real height, real apothem) {
+    real c1 = apothem / radius;
+    real s1 = sqrt(max(1.0f - square(c1), 0.0f));
+    real c2 = 1.0f - 2.0f * square(s1);
+    real s2 = 2.0f * c1 * s1;
+    real c4 = 1.0f - 2.0f * square(s2);
+    real s4 = 2.0f * c2 * s2;
+    real c8 = 1.0f - 2.0f * square(s4);
+    real s8 = 2.0f * c4 * s4;
+    vec2 q = vec2(p.x, abs(p.z));
+    q = foldAcross(q, c8, s8, 8.5f - sides);
+    q = foldAcross(q, c4, s4, 4.5f - sides);
+    q = foldAcross(q, c2, s2, real(-1.0f));
+    q = foldAcross(q, c1, s1, real(-1.0f));
+
+    vec2 side = vec2(q.x - apothem, max(abs(q.y) - radius * s1, 0.0f));
+    real across = pick(side.x, side.x, length(side));
+    return outside(vec2(across, abs(p.y) - 0.5f * height));
+}

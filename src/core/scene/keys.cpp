@@ -1,0 +1,85 @@
+#include "core/scene/keys.h"
+
+namespace mb {
+namespace {
+
+constexpr double kFar = 1e9;     // m: no coordinate of a file lies further out
+constexpr double kHuge = 1e12;
+
+constexpr std::string_view kPatternWords[] = {"none", "checker"};
+
+const Key<World> kWorld[] = {
+    {"gravity", &World::gravity, "m/s²", "along −y", -1e4, 1e4, 0, 30},
+    {"restitution", &World::restitution, "", "bounciness of bodies that state none of their own", 0, 1, 0, 1},
+    {"friction", &World::friction, "", "of bodies that state none of their own", 0, 1e3, 0, 2},
+    {"background", &World::background, "", "colour where no ray hits", 0, 1e6, 0, 1},
+    {"bounds", &World::bounds, "m", "a body further than this from the origin is removed", 1e-3, kFar, 1, 1000, false, true},
+};
+const Key<Camera> kCamera[] = {
+    {"name", &Camera::name, "", ""},
+    {"eye", &Camera::eye, "m", "", -kFar, kFar, -20, 20},
+    {"target", &Camera::target, "m", "", -kFar, kFar, -20, 20},
+    {"fov", &Camera::fov, "degrees", "vertical", 1e-3, 179, 10, 120},
+    {"ortho", &Camera::ortho, "m", "height of a parallel view; 0: perspective", 0, kFar, 0, 20},
+};
+const Key<Light> kLight[] = {
+    {"name", &Light::name, "", ""},
+    {"pos", &Light::pos, "m", "", -kFar, kFar, -20, 20, true},
+    {"color", &Light::color, "", "", 0, 1e6, 0, 1},
+    {"intensity", &Light::intensity, "", "", 0, 1e6, 0, 5},
+};
+const Key<Material> kMaterial[] = {
+    {"name", &Material::name, "", "", 0, 0, 0, 0, true},
+    {"color", &Material::color, "", "", 0, 1e3, 0, 1},
+    {"color2", &Material::color2, "", "the pattern's other colour", 0, 1e3, 0, 1},
+    {"pattern", &Material::pattern, "", "fields of one metre, fixed to the object"},
+    {"Ka", &Material::ka, "", "ambient", 0, 1e3, 0, 1},
+    {"Kd", &Material::kd, "", "diffuse", 0, 1e3, 0, 1},
+    {"Ks", &Material::ks, "", "specular", 0, 1e3, 0, 1},
+    {"Kr", &Material::kr, "", "reflected", 0, 1, 0, 1},
+    {"C", &Material::c, "", "shininess: the highlight's exponent", 0, 1e4, 1, 256, false, true},
+};
+const Key<RenderKnobs> kRender[] = {
+    {"march_steps", &RenderKnobs::march_steps, "", "evaluations a primary or reflected ray may make", 1, 8192, 16, 2048, false, true},
+    {"march_epsilon", &RenderKnobs::march_epsilon, "", "of the distance travelled: closer, a ray looks for a change of sign", 1e-6, 0.1,
+     1e-6, 1e-2, false, true},
+    {"max_distance", &RenderKnobs::max_distance, "m", "nothing further is seen", 1e-3, 1e6, 1, 1000, false, true},
+    {"normal_epsilon", &RenderKnobs::normal_epsilon, "", "of the distance travelled: the reach of the normal's differences", 1e-6, 0.1,
+     1e-5, 1e-2, false, true},
+    {"shadow_steps", &RenderKnobs::shadow_steps, "", "evaluations a shadow ray may make", 0, 8192, 0, 1024},
+    {"reflections", &RenderKnobs::reflections, "", "bounces", 0, 64, 0, 16},
+    {"samples", &RenderKnobs::samples, "", "a pixel", 1, 256, 1, 16},
+    {"show_undecided", &RenderKnobs::show_undecided, "", "tints the pixels whose rays ran out of steps"},
+};
+const Key<PhysicsKnobs> kPhysics[] = {
+    {"dt", &PhysicsKnobs::dt, "s", "one step", 1e-6, 1, 1e-3, 1.0 / 30, false, true},
+    {"substeps", &PhysicsKnobs::substeps, "", "parts of a step", 1, 1000, 1, 16},
+    {"iterations", &PhysicsKnobs::iterations, "", "of the contact solver, a part", 1, 10'000, 1, 100, false, true},
+};
+const Key<Object> kObject[] = {
+    {"name", &Object::name, "", ""},
+    {"pos", &Object::pos, "m", "", -kFar, kFar, -5, 5},
+    {"rot", &Object::rot, "degrees", "R = Rz·Ry·Rx", -kFar, kFar, -180, 180},
+    {"scale", &Object::scale, "", "uniform", 1e-6, 1e6, 0.1, 5, false, true},
+    {"hidden", &Object::hidden, "", "neither seen nor touched"},
+    {"mass", &Object::mass, "kg", "0: it never moves", 0, kHuge, 0, 100},
+    {"density", &Object::density, "kg/m³", "instead of a mass", 0, kHuge, 0, 10'000},
+    {"vel", &Object::vel, "m/s", "", -1e4, 1e4, -10, 10},
+    {"spin", &Object::spin, "rad/s", "", -1e5, 1e5, -20, 20},
+    {"restitution", &Object::restitution, "", "bounciness; none: the world's", 0, 1, 0, 1},
+    {"friction", &Object::friction, "", "none: the world's", 0, 1e3, 0, 2},
+};
+
+}  // namespace
+
+template <> std::span<const Key<World>> keys() { return kWorld; }
+template <> std::span<const Key<Camera>> keys() { return kCamera; }
+template <> std::span<const Key<Light>> keys() { return kLight; }
+template <> std::span<const Key<Material>> keys() { return kMaterial; }
+template <> std::span<const Key<RenderKnobs>> keys() { return kRender; }
+template <> std::span<const Key<PhysicsKnobs>> keys() { return kPhysics; }
+template <> std::span<const Key<Object>> keys() { return kObject; }
+
+std::span<const std::string_view> patternWords() { return kPatternWords; }
+
+}  // namespace mb

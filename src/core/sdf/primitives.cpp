@@ -1,0 +1,130 @@
+// The table of primitives. To add one: its function in shaders/sdf/primitives.glsl, and a row here.
+#include "core/sdf/call.h"
+#include "core/sdf/shape.h"
+
+namespace mb {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPi = 3.14159265358979323846;
+
+constexpr Parameter length(std::string_view name, std::string_view tip, double initial) {
+    return {.name = name, .unit = "m", .tip = tip, .size = 1, .initial = {initial}, .lo = 1e-6, .hi = 1e6,
+            .slider_lo = 0.01, .slider_hi = 5};
+}
+constexpr Parameter lengths(std::string_view name, std::string_view tip, double initial) {
+    Parameter p = length(name, tip, initial);
+    p.size = 3, p.initial = {initial, initial, initial};
+    return p;
+}
+/// A length that may be 0 and may be left out.
+constexpr Parameter extra(std::string_view name, std::string_view tip) {
+    Parameter p = length(name, tip, 0);
+    p.lo = 0, p.slider_lo = 0, p.slider_hi = 1, p.optional = true;
+    return p;
+}
+
+constexpr Parameter kSphere[] = {length("radius", "", 0.5)};
+constexpr Parameter kBox[] = {lengths("size", "the three edge lengths", 1), extra("round", "radius of the edges")};
+constexpr Parameter kPlane[] = {
+    {.name = "normal", .unit = "", .tip = "points out of the solid; of any length but 0", .size = 3, .initial = {0, 1, 0},
+     .lo = -1e6, .hi = 1e6, .slider_lo = -1, .slider_hi = 1, .optional = true},
+    {.name = "offset", .unit = "m", .tip = "normal·p <= offset is solid", .size = 1, .initial = {0}, .lo = -1e9, .hi = 1e9,
+     .slider_lo = -5, .slider_hi = 5, .optional = true}};
+constexpr Parameter kTorus[] = {length("major", "from the centre to the middle of the tube", 0.5),
+                                length("minor", "radius of the tube", 0.15)};
+constexpr Parameter kCylinder[] = {length("radius", "", 0.5), length("height", "", 1), extra("round", "radius of the edges")};
+constexpr Parameter kCapsule[] = {length("radius", "", 0.3), length("height", "between the two centres", 0.6)};
+constexpr Parameter kCone[] = {length("radius", "of the base", 0.5), extra("radius2", "of the top"), length("height", "", 1)};
+constexpr Parameter kEllipsoid[] = {lengths("radii", "along x, y and z", 0.5)};
+constexpr Parameter kOctahedron[] = {length("radius", "from the centre to each corner", 0.6)};
+constexpr Parameter kPrism[] = {{.name = "sides", .unit = "", .tip = "", .size = 1, .initial = {6}, .lo = 3, .hi = 12,
+                                 .slider_lo = 3, .slider_hi = 12, .kind = Parameter::Kind::whole},
+                                length("radius", "to a corner", 0.5), length("height", "", 1)};
+
+constexpr Box around(double x, double y, double z) { return {{-x, -y, -z}, {x, y, z}}; }
+
+/// The file's half-space n·p <= offset, with n made a unit vector.
+void cookPlane(LeafNumbers& k) {
+    const double n = std::sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
+    for (double& x : k) x /= n;
+}
+Box planeExtent(const LeafNumbers& k) {
+    Box box = around(kInfinity, kInfinity, kInfinity);
+    for (unsigned i = 0; i < 3; ++i) {
+        if (k[i] == 1) box.hi[i] = k[3];
+        if (k[i] == -1) box.lo[i] = -k[3];
+    }
+    return box;
+}
+void cookPrism(LeafNumbers& k) { k[3] = k[1] * std::cos(kPi / k[0]); }
+Box prismExtent(const LeafNumbers& k) {
+    Box box = around(0, 0.5 * k[2], 0);
+    const int sides = static_cast<int>(k[0]);
+    for (int i = 0; i < sides; ++i) {
+        const double angle = (2 * i + 1) * kPi / sides, x = k[1] * std::cos(angle), z = k[1] * std::sin(angle);
+        box.lo[0] = std::min(box.lo[0], x), box.hi[0] = std::max(box.hi[0], x);
+        box.lo[2] = std::min(box.lo[2], z), box.hi[2] = std::max(box.hi[2], z);
+    }
+    return box;
+}
+
+struct About {
+    std::string_view name, glsl, tip;
+    bool exact = true;
+    void (*cook)(LeafNumbers&) = nullptr;
+    std::string_view derived = {};
+};
+
+/// `f` names one function of Sdf<real> for every real: from it come the evaluators. A row whose parameters do not match
+/// the GLSL function does not compile.
+template <int N, class F>
+constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F f, Box (*extent)(const LeafNumbers&)) {
+    int declared = about.derived.empty() ? 0 : 1;
+    for (const Parameter& p : parameters) declared += p.size;
+    if (declared != sdf::argumentNumbers(f(sdf::Sdf<float>{})) || declared > kMaxLeafNumbers)
+        throw "the parameters do not match the GLSL function";
+    Primitive p{};
+    p.name = about.name, p.tip = about.tip, p.parameters = parameters;
+    p.glsl = about.glsl, p.derived = about.derived, p.exact = about.exact, p.cook = about.cook, p.extent = extent;
+    p.f32 = [](sdf::Vec3<float> q, const double* k) { return sdf::call(F{}(sdf::Sdf<float>{}), q, k); };
+    p.f64 = [](sdf::Vec3<double> q, const double* k) { return sdf::call(F{}(sdf::Sdf<double>{}), q, k); };
+    p.dual = [](sdf::Vec3<sdf::Dual> q, const double* k) { return sdf::call(F{}(sdf::Sdf<sdf::Dual>{}), q, k); };
+    p.interval = [](sdf::Vec3<sdf::Interval> q, const double* k) { return sdf::call(F{}(sdf::Sdf<sdf::Interval>{}), q, k); };
+    return p;
+}
+#define MB_FUNCTION(name) [](auto s) { return &decltype(s)::name; }
+
+constexpr Primitive kPrimitives[] = {
+    row({"sphere", "sdSphere", "A ball"}, kSphere, MB_FUNCTION(sdSphere),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),
+    row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
+        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); }),
+    row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent),
+    row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
+        [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); }),
+    row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
+        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); }),
+    row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
+        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); }),
+    row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
+        [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); }),
+    row({"ellipsoid", "sdEllipsoid", "A ball stretched along the axes", false}, kEllipsoid, MB_FUNCTION(sdEllipsoid),
+        [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); }),
+    row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),
+    row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
+        prismExtent),
+};
+
+}  // namespace
+
+std::span<const Primitive> primitives() { return kPrimitives; }
+
+int Primitive::leafNumbers() const {
+    int n = derived.empty() ? 0 : 1;
+    for (const Parameter& p : parameters) n += p.size;
+    return n;
+}
+
+}  // namespace mb
