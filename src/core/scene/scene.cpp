@@ -77,6 +77,11 @@ int effectiveMaterial(const Scene& scene, std::size_t object) {
     return kNoMaterial;
 }
 
+const Material& materialOf(const Scene& scene, int material) {
+    static const Material kDefault;
+    return material == kNoMaterial ? kDefault : scene.materials[static_cast<std::size_t>(material)];
+}
+
 glm::dmat3 rotationFromDegrees(glm::dvec3 degrees) {
     const glm::dvec3 c = glm::cos(glm::radians(degrees)), s = glm::sin(glm::radians(degrees));
     const glm::dmat3 x{1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x};

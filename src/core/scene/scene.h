@@ -118,6 +118,8 @@ void removeSubtree(Scene& scene, std::size_t object);
 Camera defaultCamera(const Scene& scene);
 /// The material an object shows: its own, else its nearest ancestor's, else the default one (kNoMaterial).
 int effectiveMaterial(const Scene& scene, std::size_t object);
+/// The material of that number; kNoMaterial is the default one.
+const Material& materialOf(const Scene& scene, int material);
 
 /// The rotation of Euler angles in degrees, R = Rz·Ry·Rx, and one such triple for a rotation.
 glm::dmat3 rotationFromDegrees(glm::dvec3 degrees);

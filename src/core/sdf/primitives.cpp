@@ -74,6 +74,7 @@ struct About {
     bool exact = true;
     void (*cook)(LeafNumbers&) = nullptr;
     std::string_view derived = {};
+    bool turns = true;
 };
 
 /// `f` names one function of Sdf<real> for every real: from it come the evaluators. A row whose parameters do not match
@@ -86,7 +87,7 @@ constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F 
         throw "the parameters do not match the GLSL function";
     Primitive p{};
     p.name = about.name, p.tip = about.tip, p.parameters = parameters;
-    p.glsl = about.glsl, p.derived = about.derived, p.exact = about.exact, p.cook = about.cook, p.extent = extent;
+    p.glsl = about.glsl, p.derived = about.derived, p.exact = about.exact, p.turns = about.turns, p.cook = about.cook, p.extent = extent;
     p.f32 = [](sdf::Vec3<float> q, const double* k) { return sdf::call(F{}(sdf::Sdf<float>{}), q, k); };
     p.f64 = [](sdf::Vec3<double> q, const double* k) { return sdf::call(F{}(sdf::Sdf<double>{}), q, k); };
     p.dual = [](sdf::Vec3<sdf::Dual> q, const double* k) { return sdf::call(F{}(sdf::Sdf<sdf::Dual>{}), q, k); };
@@ -96,7 +97,7 @@ constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F 
 #define MB_FUNCTION(name) [](auto s) { return &decltype(s)::name; }
 
 constexpr Primitive kPrimitives[] = {
-    row({"sphere", "sdSphere", "A ball"}, kSphere, MB_FUNCTION(sdSphere),
+    row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
         [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),
     row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
         [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); }),

@@ -1,0 +1,61 @@
+#version 330 core
+// One pixel of the picture: send a ray, march it, shade what it meets, follow its reflection.
+//
+// The program writes above this text what the scene calls for (EFFECT_… definitions and array sizes), and in place of
+// "scene.glsl" the scene's own map() and nearest(). All positions are relative to the eye, so that a scene far from the
+// world's origin loses nothing; lengths are metres.
+
+#include "sdf/dialect.glsl"
+#include "sdf/operators.glsl"
+#include "sdf/primitives.glsl"
+#include "lib/blocks.glsl"
+#include "scene.glsl"
+#include "lib/outcome.glsl"
+#include "lib/camera.glsl"
+#include "lib/tolerance.glsl"
+#include "lib/march.glsl"
+#include "lib/normal.glsl"
+#include "lib/material.glsl"
+#include "lib/shadow.glsl"
+#include "lib/phong.glsl"
+
+layout(location = 0) out vec4 out_color;
+#ifdef COUNTED
+layout(location = 1) out vec4 out_surface;      // normal, depth
+layout(location = 2) out vec4 out_ray;          // object, steps, state
+layout(location = 3) out vec4 out_evaluations;  // primary, normal, shadow, reflection
+layout(location = 4) out vec4 out_rays;         // shadow, reflection; undecided ones of each
+#endif
+
+void main() {
+    Ray ray = cameraRay(gl_FragCoord.xy);
+    vec3 color = vec3(0.0);
+    float weight = 1.0;
+    for (int bounce = 0; bounce <= reflections(); ++bounce) {
+        March march = marchRay(ray, frame.reach.y, marchSteps());
+        countMarch(bounce, march);
+        bool seen = march.state == HIT || (march.state == UNDECIDED && looksLikeSurface(march));
+        if (!seen) {
+            if (bounce == 0) keepPrimary(march, vec3(0.0), -1.0);
+            color += weight * background();
+            break;
+        }
+
+        Surface surface = surfaceAt(ray, march);
+        if (bounce == 0) keepPrimary(march, surface.normal, surface.object);
+        color += weight * phong(surface, ray.direction);
+        weight *= surface.reflectance;
+        if (weight < LEAST_WEIGHT) break;
+        ray = reflectRay(ray, surface);
+    }
+
+    if (outcome.state == UNDECIDED && showsUndecided()) color = frame.pass.z != 0 ? UNDECIDED_TINT : vec3(0.0);
+    out_color = vec4(color, frame.background.w);
+    gl_FragDepth = depthOf(outcome.depth);
+#ifdef COUNTED
+    out_surface = vec4(outcome.normal, outcome.depth);
+    out_ray = vec4(outcome.object, outcome.steps, float(outcome.state), 0.0);
+    out_evaluations = vec4(outcome.evaluations);
+    out_rays = vec4(outcome.rays);
+#endif
+}

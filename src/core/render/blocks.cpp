@@ -1,0 +1,92 @@
+#include "core/render/blocks.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <map>
+
+namespace mb {
+namespace {
+
+glm::vec4 with(glm::dvec3 v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+GpuMaterial packMaterial(const Material& m) {
+    return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}};
+}
+
+/// The largest number the leaf's distance may be computed from: of a bounded one its size, of an unbounded one how far its
+/// own origin lies from the eye.
+double reachOf(const Leaf& leaf, glm::dvec3 position) {
+    const Box box = leaf.primitive->extent(leaf.numbers);
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double size = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
+        reach = std::max(reach, std::isfinite(size) ? size : glm::length(position));
+    }
+    return reach;
+}
+
+}  // namespace
+
+Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
+    Packed packed;
+    std::map<int, int> numbers;  // of the materials some leaf shows, in the order of their first use
+    for (const Leaf& leaf : tree.leaves) {
+        const auto [number, is_new] = numbers.try_emplace(leaf.material, static_cast<int>(numbers.size()));
+        if (is_new) packed.materials.push_back(packMaterial(materialOf(scene, leaf.material)));
+        const glm::dvec3 position = leaf.position - origin;
+        const LeafNumbers& k = leaf.numbers;
+        packed.leaves.push_back({with(position, number->second), with(leaf.rotation[0], k[0]), with(leaf.rotation[1], k[1]),
+                                 with(leaf.rotation[2], k[2]), {k[3], leaf.object, 0, 0}});
+        packed.reach = std::max(packed.reach, static_cast<float>(reachOf(leaf, position)));
+    }
+    // A power of two, so that a change of one object's material seldom changes the shader.
+    packed.materials.resize(std::bit_ceil(packed.materials.size()), packMaterial({}));
+    for (const Branch& branch : tree.branches) packed.branches.push_back({branch.blend, 0, 0, 0});
+    for (const Light& light : scene.lights)
+        packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});
+    return packed;
+}
+
+GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::dvec3 sideways = glm::cross(forward, glm::dvec3{0, 1, 0});
+    // Straight up or down, where no right is to be had from up, x is taken.
+    const glm::dvec3 right = glm::length(sideways) > 1e-12 ? glm::normalize(sideways) : glm::dvec3{1, 0, 0};
+    const glm::dvec3 up = glm::cross(right, forward);
+    const bool parallel = camera.ortho > 0;
+    const double half = parallel ? camera.ortho / 2 : std::tan(glm::radians(camera.fov) / 2);
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const RenderKnobs& knobs = scene.render;
+
+    GpuFrame frame{};
+    frame.right = with(right * half * aspect, parallel);
+    frame.up = with(up * half, 0);
+    frame.forward = with(forward, 2 * half / size.y);
+    frame.picture = {size.x, size.y, 0, 0};
+    frame.reach = {knobs.march_epsilon, knobs.max_distance, knobs.normal_epsilon, 0};
+    frame.background = with(scene.world.background, 1);
+    frame.limits = {knobs.march_steps, knobs.shadow_steps, knobs.reflections, knobs.show_undecided};
+    return frame;
+}
+
+std::span<const BlockMember> blockMembers() {
+#define MB_AT(type, member, name) BlockMember{name, offsetof(type, member)}
+    static constexpr BlockMember kMembers[] = {
+        MB_AT(GpuFrame, right, "frame.right"), MB_AT(GpuFrame, up, "frame.up"), MB_AT(GpuFrame, forward, "frame.forward"),
+        MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"),
+        MB_AT(GpuFrame, background, "frame.background"), MB_AT(GpuFrame, limits, "frame.limits"), MB_AT(GpuFrame, pass, "frame.pass"),
+        MB_AT(GpuLeaf, position, "leaves[0].position"), MB_AT(GpuLeaf, x_axis, "leaves[0].x_axis"),
+        MB_AT(GpuLeaf, y_axis, "leaves[0].y_axis"), MB_AT(GpuLeaf, z_axis, "leaves[0].z_axis"), MB_AT(GpuLeaf, extra, "leaves[0].extra"),
+        MB_AT(GpuMaterial, color, "materials[0].color"), MB_AT(GpuMaterial, color2, "materials[0].color2"),
+        MB_AT(GpuMaterial, phong, "materials[0].phong"), MB_AT(GpuLight, position, "lights[0].position"),
+        MB_AT(GpuLight, color, "lights[0].color"),
+        {"leaves[1].position", sizeof(GpuLeaf)}, {"materials[1].color", sizeof(GpuMaterial)}, {"lights[1].position", sizeof(GpuLight)},
+    };
+#undef MB_AT
+    return kMembers;
+}
+
+}  // namespace mb

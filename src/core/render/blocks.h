@@ -1,0 +1,48 @@
+#pragma once
+// The std140 blocks of shaders/lib/blocks.glsl as C++: vec4 records only, so that both sides agree; a test asks the driver.
+#include "core/effects/plan.h"
+#include "core/sdf/tree.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace mb {
+
+struct GpuLeaf {
+    glm::vec4 position, x_axis, y_axis, z_axis, extra;
+};
+struct GpuMaterial {
+    glm::vec4 color, color2, phong;
+};
+struct GpuLight {
+    glm::vec4 position, color;
+};
+struct GpuFrame {
+    glm::vec4 right, up, forward, picture, reach, background;
+    glm::ivec4 limits, pass;
+};
+
+/// Everything the shader reads of a scene, but the frame: packed anew for each frame, relative to an origin.
+struct Packed {
+    std::vector<GpuLeaf> leaves;
+    std::vector<glm::vec4> branches;
+    std::vector<GpuMaterial> materials;  // those that some leaf shows
+    std::vector<GpuLight> lights;
+    float reach = 0;                     // the largest length a leaf's distance is computed from
+};
+Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin);
+
+/// The camera's basis and the knobs, for a picture of width by height pixels.
+GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size);
+
+/// A member of a block for the test that compares offsets: its name in GLSL and where C++ has it.
+struct BlockMember {
+    const char* name;
+    std::size_t offset;
+};
+std::span<const BlockMember> blockMembers();
+
+}  // namespace mb

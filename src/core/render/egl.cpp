@@ -1,0 +1,111 @@
+// Rendering with no window and no display server through EGL's surfaceless platform (Mesa). The library is looked for
+// when the program runs; only its header is needed to build.
+#include "core/render/context.h"
+#include "core/render/loader.h"
+
+#if __has_include(<EGL/egl.h>)
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <dlfcn.h>
+#endif
+
+namespace mb {
+#if __has_include(<EGL/egl.h>)
+namespace {
+
+struct Library {
+    decltype(&eglGetProcAddress) get = nullptr;
+    decltype(&eglGetPlatformDisplay) display = nullptr;
+    decltype(&eglInitialize) initialize = nullptr;
+    decltype(&eglBindAPI) bind = nullptr;
+    decltype(&eglChooseConfig) choose = nullptr;
+    decltype(&eglCreateContext) create = nullptr;
+    decltype(&eglDestroyContext) destroy = nullptr;
+    decltype(&eglMakeCurrent) make_current = nullptr;
+    std::string why;
+
+    Library() {
+        void* file = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
+        if (!file) {
+            why = "EGL: libEGL.so.1 is not installed";
+            return;
+        }
+        const auto find = [&](auto& function, const char* name) {
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(file, name));
+            if (!function) why = std::string("EGL: it lacks ") + name;
+        };
+        find(get, "eglGetProcAddress");
+        find(display, "eglGetPlatformDisplay");
+        find(initialize, "eglInitialize");
+        find(bind, "eglBindAPI");
+        find(choose, "eglChooseConfig");
+        find(create, "eglCreateContext");
+        find(destroy, "eglDestroyContext");
+        find(make_current, "eglMakeCurrent");
+    }
+};
+
+const Library& library() {
+    static const Library loaded;
+    return loaded;
+}
+
+class Egl final : public Context {
+public:
+    Egl(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    ~Egl() override {
+        library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        library().destroy(display_, context_);
+    }
+    Egl(const Egl&) = delete;
+    Egl& operator=(const Egl&) = delete;
+
+    std::string makeCurrent() override {
+        library().bind(EGL_OPENGL_API);
+        if (!library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return "EGL: it cannot be made current";
+        return loadOpenGl(library().get);
+    }
+    std::string_view name() const override { return "EGL"; }
+
+private:
+    EGLDisplay display_;
+    EGLContext context_;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> makeEgl(std::string& why) {
+    const Library& egl = library();
+    why = egl.why;
+    if (!why.empty()) return nullptr;
+    const EGLDisplay display = egl.display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display == EGL_NO_DISPLAY || !egl.initialize(display, nullptr, nullptr) || !egl.bind(EGL_OPENGL_API)) {
+        why = "EGL: it offers no surfaceless display";
+        return nullptr;
+    }
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    egl.choose(display, wanted, &config, 1, &count);
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLContext made = count > 0 ? egl.create(display, config, EGL_NO_CONTEXT, attributes) : EGL_NO_CONTEXT;
+    if (made == EGL_NO_CONTEXT) {
+        why = "EGL: it offers no OpenGL 3.3 core context";
+        return nullptr;
+    }
+    auto context = std::make_unique<Egl>(display, made);
+    why = context->makeCurrent();
+    if (!why.empty()) return nullptr;
+    return context;
+}
+#else
+std::unique_ptr<Context> makeEgl(std::string& why) {
+    why = "EGL: this build has none";
+    return nullptr;
+}
+#endif
+
+}  // namespace mb

@@ -1,0 +1,231 @@
+#include "core/render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+namespace mb {
+namespace {
+
+constexpr std::size_t kProgramsKept = 32;
+constexpr int kChannelAttachments = 5;
+
+template <class T> std::size_t bytes(const std::vector<T>& v) { return std::max<std::size_t>(v.size(), 1) * sizeof(T); }
+
+}  // namespace
+
+glm::dvec2 samplePlace(int i, int n) {
+    if (n == 1) return {0, 0};
+    constexpr double kPlastic = 1.32471795724474602596;
+    const glm::dvec2 at = 0.5 + glm::dvec2{1 / kPlastic, 1 / (kPlastic * kPlastic)} * static_cast<double>(i);
+    return at - glm::floor(at) - 0.5;
+}
+
+Renderer::Renderer() {
+    name_ = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+    gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block_bytes_);
+    for (GLuint point = 0; point < static_cast<GLuint>(BlockPoint::count); ++point) {
+        GLuint name = 0;
+        glGenBuffers(1, &name);
+        blocks_.emplace_back(name);
+        glBindBufferBase(GL_UNIFORM_BUFFER, point, name);
+    }
+}
+
+std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+    const Ready ready = prepare(scene, camera, size, Variant::plain, camera.eye);
+    if (!ready.why.empty()) return ready.why;
+    if (picture_.size() != size) picture_ = Targets(size, 1);
+    picture_.clear();
+    glUseProgram(ready.program->name);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ONE);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_ALWAYS);
+    eachPass(scene, ready.frame, [&] { quad_.draw(); });
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_DEPTH_TEST);
+    return {};
+}
+
+std::vector<glm::vec3> Renderer::readPicture() const {
+    const std::vector<float> pixels = picture_.read(0);
+    std::vector<glm::vec3> picture(pixels.size() / 4);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        picture[i] = glm::vec3{pixels[4 * i], pixels[4 * i + 1], pixels[4 * i + 2]} / pixels[4 * i + 3];
+    return picture;
+}
+
+std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out) {
+    Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
+    if (!ready.why.empty()) return ready.why;
+    channels_ = Targets(size, kChannelAttachments);
+    glUseProgram(ready.program->name);
+    out = {};
+    const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+
+    // The counters of every pass that a picture takes.
+    eachPass(scene, ready.frame, [&] {
+        channels_.clear();
+        quad_.draw();
+        const std::vector<float> evaluations = channels_.read(3), rays = channels_.read(4);
+        Counts& c = out.counts;
+        c.rays.primary += pixels;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const auto count = [&](const std::vector<float>& v, std::size_t k) { return static_cast<std::uint64_t>(v[4 * i + k]); };
+            c.evaluations.primary += count(evaluations, 0), c.evaluations.normal += count(evaluations, 1);
+            c.evaluations.shadow += count(evaluations, 2), c.evaluations.reflection += count(evaluations, 3);
+            c.rays.shadow += count(rays, 0), c.rays.reflection += count(rays, 1);
+            c.undecided_rays.shadow += count(rays, 2), c.undecided_rays.reflection += count(rays, 3);
+        }
+    });
+
+    // The channels of the pixels' centres.
+    GpuFrame centre = ready.frame;
+    centre.pass = {0, 0, 1, 0};
+    bindFrame(centre);
+    channels_.clear();
+    quad_.draw();
+    const std::vector<float> surface = channels_.read(1), ray = channels_.read(2);
+    Channels& c = out.channels;
+    c.size = size;
+    c.depth.resize(pixels), c.normal.resize(pixels), c.object.resize(pixels), c.steps.resize(pixels), c.state.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        c.normal[i] = {surface[4 * i], surface[4 * i + 1], surface[4 * i + 2]};
+        c.depth[i] = surface[4 * i + 3];
+        c.object[i] = ray[4 * i], c.steps[i] = ray[4 * i + 1], c.state[i] = ray[4 * i + 2];
+        out.counts.pixels.hit += c.state[i] == 1, out.counts.pixels.miss += c.state[i] == 0, out.counts.pixels.undecided += c.state[i] == 2;
+    }
+    return {};
+}
+
+std::string Renderer::evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out) {
+    constexpr int kWidth = 1024;
+    const glm::ivec2 size{kWidth, static_cast<int>((points.size() + kWidth - 1) / kWidth)};
+    out.clear();
+    if (points.empty()) return {};
+    const Ready ready = prepare(scene, {}, size, Variant::evaluate, {});
+    if (!ready.why.empty()) return ready.why;
+
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4{0});
+    for (std::size_t i = 0; i < points.size(); ++i) texels[i] = {points[i], 0};
+    const Targets input(size, 1), output(size, 2);
+    gl.BindTexture(GL_TEXTURE_2D, input.texture(0));
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, texels.data());
+    output.clear();
+    glUseProgram(ready.program->name);
+    bindFrame(ready.frame);
+    quad_.draw();
+
+    // The texture's rows count from the bottom, the reading from the top.
+    const std::vector<float> value = output.read(0), leaf = output.read(1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t x = i % kWidth, y = static_cast<std::size_t>(size.y) - 1 - i / kWidth, at = 4 * (y * kWidth + x);
+        out.push_back({value[at], leaf[at + 2], {value[at + 1], value[at + 2], value[at + 3]}, static_cast<int>(leaf[at]),
+                       static_cast<int>(leaf[at + 1])});
+    }
+    return {};
+}
+
+void Renderer::present(glm::ivec2 corner, glm::ivec2 size) {
+    if (picture_.size().x == 0) return;
+    if (!present_.usable()) present_ = makeProgram(resolve(shaderLibrary(), "present.glsl"));
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.Viewport(corner.x, corner.y, size.x, size.y);
+    glUseProgram(present_.name);
+    glActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, picture_.texture(0));
+    glUniform1i(present_.uniform("picture"), 0);
+    glUniform2f(present_.uniform("corner"), static_cast<float>(corner.x), static_cast<float>(corner.y));
+    glUniform2f(present_.uniform("size"), static_cast<float>(size.x), static_cast<float>(size.y));
+    quad_.draw();
+}
+
+Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin) {
+    Ready ready;
+    const int most = maxTargetSize();
+    if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+        ready.why = fmt::format("a picture of {}x{} pixels: each side must be between 1 and {}", size.x, size.y, most);
+        return ready;
+    }
+    if (const auto object = firstUnevaluated(scene)) {
+        ready.why = fmt::format("object '{}' is a '{}', which this version cannot draw yet", label(scene, *object),
+                                scene.objects[*object].type->name);
+        return ready;
+    }
+    const Tree tree = makeTree(scene);
+    plan_ = makePlan(scene, tree);
+    if (ready.why = plan_.refused; !ready.why.empty()) return ready;
+    ready.packed = pack(scene, tree, origin);
+    ready.frame = packFrame(scene, camera, size);
+    ready.frame.reach.w = ready.packed.reach;
+    if (ready.why = upload(ready.packed, ready.frame); !ready.why.empty()) return ready;
+    ready.program = program(variant, tree, ready.packed, ready.why);
+    return ready;
+}
+
+const Program* Renderer::program(Variant variant, const Tree& tree, const Packed& packed, std::string& why) {
+    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size()};
+    Texts texts = shaderLibrary();
+    texts["scene.glsl"] = sceneGlsl(tree);
+    const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",
+                                      head(plan_, sizes, variant == Variant::counted));
+    const auto known = std::ranges::find(programs_, composed.text, &Cached::text);
+    if (known != programs_.end()) {
+        programs_.splice(programs_.begin(), programs_, known);
+    } else {
+        programs_.push_front({composed.text, makeProgram(composed)});
+        ++compiled_;
+        if (programs_.size() > kProgramsKept) programs_.pop_back();
+    }
+    const Program& program = programs_.front().program;
+    if (!program.usable()) why = "the shader does not compile:\n" + program.log;
+    return &program;
+}
+
+std::string Renderer::upload(const Packed& packed, const GpuFrame& frame) {
+    const auto fill = [&](BlockPoint point, const auto& records, std::size_t room, const char* what) -> std::string {
+        using Record = typename std::decay_t<decltype(records)>::value_type;
+        const std::size_t limit = static_cast<std::size_t>(block_bytes_);
+        if (room * sizeof(Record) > limit)
+            return fmt::format("the scene has {} {}; this driver's uniform blocks hold {}", records.size(), what, limit / sizeof(Record));
+        glBindBuffer(GL_UNIFORM_BUFFER, blocks_[static_cast<std::size_t>(point)]);
+        glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(room, 1) * sizeof(Record)), nullptr, GL_STREAM_DRAW);
+        if (!records.empty())
+            glBufferSubData(GL_UNIFORM_BUFFER, 0, static_cast<GLsizeiptr>(records.size() * sizeof(Record)), records.data());
+        return {};
+    };
+    if (std::string why = fill(BlockPoint::leaves, packed.leaves, packed.leaves.size(), "primitives"); !why.empty()) return why;
+    if (std::string why = fill(BlockPoint::branches, packed.branches, packed.branches.size(), "operators"); !why.empty()) return why;
+    if (std::string why = fill(BlockPoint::materials, packed.materials, packed.materials.size(), "materials"); !why.empty()) return why;
+    if (std::string why = fill(BlockPoint::lights, packed.lights, packed.lights.size(), "lights"); !why.empty()) return why;
+    bindFrame(frame);
+    return {};
+}
+
+void Renderer::bindFrame(const GpuFrame& frame) {
+    glBindBuffer(GL_UNIFORM_BUFFER, blocks_[static_cast<std::size_t>(BlockPoint::frame)]);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+}
+
+/// Calls `pass` for every sample of a pixel and every turn of lights, the frame's block set for it.
+template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F pass) {
+    const int samples = scene.render.samples;
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec2 place = samplePlace(i, samples);
+        frame.picture.z = static_cast<float>(place.x), frame.picture.w = static_cast<float>(place.y);
+        for (const LightPass& lights : plan_.passes) {
+            const bool first = lights.first == 0;
+            frame.background.w = first ? 1.0f : 0.0f;
+            frame.pass = {lights.first, lights.last, first, 0};
+            bindFrame(frame);
+            pass();
+        }
+    }
+}
+
+}  // namespace mb

@@ -1,0 +1,100 @@
+#pragma once
+// Draws a scene: the one renderer of the window, the command line and the tests. Needs a current OpenGL context for all
+// its life.
+#include "core/effects/plan.h"
+#include "core/render/blocks.h"
+#include "core/render/program.h"
+#include "core/render/targets.h"
+
+#include <cstdint>
+#include <list>
+#include <string>
+#include <vector>
+
+namespace mb {
+
+/// A picture's other channels, size.x · size.y of each, the top row first; what the command line calls its AOVs.
+struct Channels {
+    glm::ivec2 size{0};
+    std::vector<float> depth;      // metres along the ray; +inf where nothing was hit
+    std::vector<glm::vec3> normal; // world; 0 where nothing was hit
+    std::vector<float> object;     // the top-level object's number; −1 for none
+    std::vector<float> steps;      // evaluations of the primary ray
+    std::vector<float> state;      // 0 miss, 1 hit, 2 undecided
+};
+
+/// What a frame took, exact and the same on every run.
+struct Counts {
+    struct { std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0; } evaluations;  // normal: with the look-up of the surface's object
+    struct { std::uint64_t primary = 0, shadow = 0, reflection = 0; } rays;
+    struct { std::uint64_t shadow = 0, reflection = 0; } undecided_rays;
+    struct { std::uint64_t hit = 0, miss = 0, undecided = 0; } pixels;
+};
+
+struct Measured {
+    Channels channels;
+    Counts counts;
+};
+
+/// What the scene's functions say at a point; the gradient by differences.
+struct GpuSample {
+    float distance, found_distance;  // map()'s and nearest()'s, which must be equal
+    glm::vec3 gradient;
+    int leaf, object;                // −1 for none
+};
+
+class Renderer {
+public:
+    Renderer();
+
+    /// Draws the scene into picture(). Returns why it could not, or nothing; then the last picture stays.
+    std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
+    /// The picture last drawn: linear RGB, the top row first.
+    std::vector<glm::vec3> readPicture() const;
+    const Targets& picture() const { return picture_; }
+    /// Draws once more with counters: the other channels, and what draw() takes.
+    std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out);
+    /// The scene's own functions at points, in the world's coordinates.
+    std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
+    /// Puts the picture on the framebuffer now bound to 0, into the rectangle of that corner and size, as sRGB.
+    void present(glm::ivec2 corner, glm::ivec2 size);
+
+    const Plan& plan() const { return plan_; }       // of the last scene drawn
+    const std::string& rendererName() const { return name_; }
+    int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
+
+private:
+    struct Ready {
+        std::string why;              // it cannot be drawn
+        const Program* program = nullptr;
+        Packed packed;
+        GpuFrame frame{};
+    };
+    enum class Variant { plain, counted, evaluate };
+
+    Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
+    const Program* program(Variant variant, const Tree& tree, const Packed& packed, std::string& why);
+    std::string upload(const Packed& packed, const GpuFrame& frame);
+    template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
+    void bindFrame(const GpuFrame& frame);
+
+    struct Cached {
+        std::string text;
+        Program program;
+    };
+    std::list<Cached> programs_;      // the last used first
+    int compiled_ = 0;
+    Plan plan_;
+    std::string name_;
+    GLint block_bytes_ = 0;
+    Quad quad_;
+    std::vector<OwnedBuffer> blocks_;
+    Targets picture_, channels_;
+    Program present_;
+};
+
+/// The place of sample i of n in its pixel, from the pixel's centre, in (−½, ½): the R2 sequence (Roberts, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences", 2018); one sample lies at the centre.
+glm::dvec2 samplePlace(int i, int n);
+
+}  // namespace mb

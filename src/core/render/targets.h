@@ -1,0 +1,38 @@
+#pragma once
+// What is drawn into: float textures with a depth buffer, read back row by row from the top.
+#include "core/render/gl.h"
+#include "core/render/program.h"
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+namespace mb {
+
+/// RGBA32F colour attachments and a 32-bit depth buffer, all of one size.
+class Targets {
+public:
+    Targets() = default;
+    /// The current context's limit is the caller's to respect: see maxTargetSize.
+    Targets(glm::ivec2 size, int attachments);
+    glm::ivec2 size() const { return size_; }
+    int attachments() const { return static_cast<int>(textures_.size()); }
+    void bind() const;
+    void clear() const;
+    GLuint texture(int attachment) const { return textures_[static_cast<std::size_t>(attachment)]; }
+    /// size.x · size.y RGBA pixels, the top row first.
+    std::vector<float> read(int attachment) const;
+    /// The depth buffer, the top row first.
+    std::vector<float> readDepth() const;
+
+private:
+    glm::ivec2 size_{0};
+    std::vector<OwnedTexture> textures_;
+    OwnedTexture depth_;
+    OwnedFramebuffer framebuffer_;
+};
+
+/// The widest and highest picture the current context can draw into.
+int maxTargetSize();
+
+}  // namespace mb
