@@ -14,7 +14,7 @@ bool Editor::open(const fs::path& path) {
     LoadResult loaded = loadScene(path);
     if (!loaded.ok()) {
         std::string text = loaded.disk_fault;
-        for (const Fault& fault : loaded.faults) text += (text.empty() ? "" : "\n") + describe(fault, path.filename().string());
+        for (const Fault& fault : loaded.faults) text.append(text.empty() ? "" : "\n").append(describe(fault, path.filename().string()));
         return refuse(std::move(text));
     }
     simulation_.stop();
@@ -24,7 +24,7 @@ bool Editor::open(const fs::path& path) {
     saved_edits_ = edits_, ++revision_;
     orbit_ = Orbit::around(defaultCamera(scene_));
     std::string text = fmt::format("Opened {}.", path.filename().string());
-    for (const Fault& warning : loaded.warnings) text += "\n" + describe(warning, path.filename().string(), "warning");
+    for (const Fault& warning : loaded.warnings) text.append("\n").append(describe(warning, path.filename().string(), "warning"));
     say(false, std::move(text));
     return true;
 }

@@ -90,7 +90,7 @@ void drawPicture(Ui& ui) {
     }
     if (!ui.plan.refused.empty()) ui::remark(ui.plan.refused);
     ui::remark(fmt::format("passes: {}, at most {} loop iterations a pixel", ui.plan.passes.size(), ui.plan.loop_iterations));
-    if (!ui.picture.renderer.empty()) ui::remark("drawn by " + ui.picture.renderer);
+    if (!ui.picture.renderer.empty()) ui::remark(fmt::format("drawn by {}", ui.picture.renderer));
 }
 
 }  // namespace mb

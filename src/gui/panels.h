@@ -70,8 +70,8 @@ enum class Place { floating, column_top, column_bottom };
 /// One row of the interface: a panel if it draws, else a command that runs.
 struct Entry {
     const char *menu, *name;
-    Shortcut shortcut;
-    const char* tip;
+    Shortcut shortcut = {};
+    const char* tip = "";
     void (*draw)(Ui&) = nullptr;
     void (*run)(Ui&) = nullptr;
     bool (*enabled)(const Ui&) = nullptr;
