@@ -84,20 +84,24 @@ Slope slope(const Leaf& leaf, glm::dvec3 p) {
     return {d.v, leaf.rotation * glm::dvec3{d.dx, d.dy, d.dz}};
 }
 
-std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start,
-                                         std::uint64_t& io_evaluations) {
+std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                         std::uint64_t& io_evaluations, bool* parallel) {
     if (surfaces.size() == 1 && start == c)
         if (const auto foot = footInOneStep(surfaces[0], c, io_evaluations)) return foot;
 
     // Newton's step onto the surfaces, and along them a step towards c whose length follows the last two (Barzilai,
     // Borwein, "Two-Point Step Size Gradient Methods", 1988): near a strongly curved edge a full step overshoots.
+    // Neither may leave the place where the gradients mean something: a stride is limited.
     glm::dvec3 x = start, last_x{0}, last_along{0};
-    double step = 0.5;
+    double step = 0.5, most = 0.25 * scale;
     for (int i = 0; i < kIterations; ++i) {
         const Planes planes = linearise(surfaces, x, c, io_evaluations);
         std::array<double, 3> onto{}, shares{}, apart{};
         for (std::size_t k = 0; k < planes.count; ++k) apart[k] = glm::dot(planes.gradient[k], c - x);
-        if (!solveRows(planes, planes.value, onto) || !solveRows(planes, apart, shares)) return std::nullopt;
+        if (!solveRows(planes, planes.value, onto) || !solveRows(planes, apart, shares)) {
+            if (parallel) *parallel = true;
+            return std::nullopt;
+        }
         const glm::dvec3 normal = combine(planes, onto), along = c - x - combine(planes, shares);
         const double d = glm::length(c - x), off = glm::length(normal), slant = glm::length(along);
         if (!(off < 1e9) || !(slant < 1e9)) return std::nullopt;
@@ -108,7 +112,11 @@ std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm:
             step = curve > 0 ? std::clamp(glm::dot(moved, moved) / curve, 0.02, 10.0) : 1.0;
         }
         last_x = x, last_along = along;
-        x += step * along - normal;
+        const glm::dvec3 stride = step * along - normal;
+        if (i == 0)
+            for (std::size_t k = 0; k < planes.count; ++k) most = std::max(most, 0.25 * std::fabs(planes.value[k]));
+        const double length = glm::length(stride);
+        x += stride * (length > most ? most / length : 1.0);
     }
     return std::nullopt;
 }

@@ -14,6 +14,6 @@ struct Volume {
 /// wholly inside or outside; the others are cut, level by level, while there are at most `cells` of them. In the last ones
 /// the part that lies behind a plane at the centre's distance is counted. With the default a smooth primitive's volume
 /// errs by less than 1e-3 of it. Infinite where the bounds are.
-Volume volume(const Tree& tree, std::size_t cells = 20'000);
+Volume volume(const Tree& tree, std::size_t cells = 60'000);
 
 }  // namespace mb
