@@ -28,4 +28,8 @@ struct ClosestPoint {
 std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
                                          std::uint64_t& io_evaluations, bool* parallel = nullptr);
 
+/// Some point near `start` where all of the surfaces are 0.
+std::optional<ClosestPoint> pointOn(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                    std::uint64_t& io_evaluations);
+
 }  // namespace mb

@@ -87,11 +87,12 @@ struct StaticField::Search {
 
     /// Adds the local minimum of the distance on these leaves (or on the whole tree, where there are none) if it lies on
     /// the solid's surface and faces the ball.
-    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr) const {
+    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr, bool anywhere = false) const {
         std::array<Surface, 3> surfaces{};
         for (std::size_t i = 0; i < leaves.size(); ++i) surfaces[i].leaf = &solid.tree.leaves[leaves[i]];
         if (leaves.empty()) surfaces[0].tree = &solid.tree;
-        const auto closest = closestPoint({surfaces.data(), std::max<std::size_t>(leaves.size(), 1)}, c, start, radius, evaluations, parallel);
+        const std::span<const Surface> all(surfaces.data(), std::max<std::size_t>(leaves.size(), 1));
+        const auto closest = anywhere ? pointOn(all, c, start, radius, evaluations) : closestPoint(all, c, start, radius, evaluations, parallel);
         if (!closest) return false;
 
         const glm::dvec3 away = c - closest->point;
@@ -128,16 +129,24 @@ struct StaticField::Search {
         return leaves;
     }
 
-    /// Straight above a round hole both surfaces' gradients point at the ball: then the rim is looked for on four sides.
+    /// The nearest point of two surfaces' common curve, and three more around the ball: over a round hole it rests on the
+    /// rim on all sides, though one is nearest. (Elsewhere these lie below the first one's tangent plane and are dropped.)
     void addEdge(std::size_t a, std::size_t b) const {
+        const std::array edge{a, b};
+        const glm::dvec3 axis = slope(solid.tree.leaves[a], c).gradient;
+        glm::dvec3 side{0}, down{0};
         bool parallel = false;
-        if (add(std::array{a, b}, c, &parallel) || !parallel) return;
-        const glm::dvec3 n = slope(solid.tree.leaves[a], c).gradient;
-        const glm::dvec3 axis = std::fabs(n.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0};
-        const glm::dvec3 u = glm::cross(n, axis);
-        if (!(glm::dot(u, u) > 1e-12)) return;
-        const glm::dvec3 v = glm::cross(n, u);
-        for (const glm::dvec3& side : {u, v, -u, -v}) add(std::array{a, b}, c + (0.5 * radius) * glm::normalize(side));
+        if (add(edge, c, &parallel)) {
+            const glm::dvec3 to = found.back().point - c;
+            down = glm::dot(to, axis) * axis, side = to - down;
+        } else if (parallel) {
+            // Straight above its middle the surfaces' gradients are parallel, and no side is the nearest.
+            side = 0.5 * radius * glm::cross(axis, std::fabs(axis.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0});
+            add(edge, c + side, nullptr, true);
+        }
+        if (!(glm::dot(side, side) > 1e-12 * radius * radius)) return;
+        const glm::dvec3 across = glm::cross(axis, side);
+        for (const glm::dvec3& way : {across, -side, -across}) add(edge, c + down + way, nullptr, true);
     }
 
     void facesEdgesCorners() const {
