@@ -15,6 +15,7 @@ layout(location = 0) out vec4 out_value;  // distance, gradient
 layout(location = 1) out vec4 out_leaf;   // the leaf's number, its object's; -1 for none
 
 void main() {
+    readScene();
     vec3 p = texelFetch(points, ivec2(gl_FragCoord.xy), 0).xyz;
     out_value = vec4(map(p), gradientAt(p, normalReach(length(p))));
     Nearest found = nearest(p);

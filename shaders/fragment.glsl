@@ -25,9 +25,12 @@ layout(location = 1) out vec4 out_surface;      // normal, depth
 layout(location = 2) out vec4 out_ray;          // object, steps, state
 layout(location = 3) out vec4 out_evaluations;  // primary, normal, shadow, reflection
 layout(location = 4) out vec4 out_rays;         // shadow, reflection; undecided ones of each
+#else
+layout(location = 1) out vec4 out_undecided;    // 1 for a pixel whose own ray is
 #endif
 
 void main() {
+    readScene();
     Ray ray = cameraRay(gl_FragCoord.xy);
     vec3 color = vec3(0.0);
     float weight = 1.0;
@@ -57,5 +60,7 @@ void main() {
     out_ray = vec4(outcome.object, outcome.steps, float(outcome.state), 0.0);
     out_evaluations = vec4(outcome.evaluations);
     out_rays = vec4(outcome.rays);
+#else
+    out_undecided = vec4(outcome.state == UNDECIDED ? 1.0 : 0.0);
 #endif
 }

@@ -37,10 +37,9 @@ layout(std140) uniform BranchBlock { vec4 branches[BRANCHES]; };  // x: the blen
 layout(std140) uniform MaterialBlock { Material materials[MATERIALS]; };
 layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
 
-// A point in a leaf's frame; a ball needs no rotation.
-vec3 centred(vec3 p, Leaf leaf) { return p - leaf.position.xyz; }
+// A point in a leaf's frame.
 vec3 local(vec3 p, Leaf leaf) {
-    vec3 q = centred(p, leaf);
+    vec3 q = p - leaf.position.xyz;
     return vec3(dot(leaf.x_axis.xyz, q), dot(leaf.y_axis.xyz, q), dot(leaf.z_axis.xyz, q));
 }
 

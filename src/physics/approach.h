@@ -42,13 +42,16 @@ template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, co
     const auto inside = [&](const GapAt& s, double rate) { return s.gap < floor || (s.gap < 0 && rate < -limits.bounce); };
     if (here.measured && here.gap <= 0 && here.rate < -limits.bounce) return m.found = true, m.time = from, m;
 
-    // The time between a free gap at t and a negative one at t1.
+    // The time between t and t1 when the gap passes 0; where it is about 0 at t already, since they rest on one another
+    // there and meet elsewhere, when it passes a little less.
     const auto root = [&](GapAt a, double t1, GapAt b) {
-        double lo = t, hi = t1, ga = a.gap, gb = b.gap;
+        const double level = a.gap > 1e-3 * limits.depth ? 0 : a.gap - 1e-3 * limits.depth;
+        double lo = t, hi = t1, ga = a.gap - level, gb = b.gap - level;
+        if (gb >= 0) return t1;
         for (int i = 0, side = 0; i < 100 && hi - lo > 1e-15; ++i) {
             double mid = lo + (hi - lo) * (ga / (ga - gb));
             if (!(mid > lo && mid < hi)) mid = 0.5 * (lo + hi);
-            const double g = sample(mid).gap;
+            const double g = sample(mid).gap - level;
             if (std::fabs(g) <= 1e-11) return mid;
             if (g > 0) {
                 lo = mid, ga = g;
@@ -80,7 +83,7 @@ template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, co
                 met = inside(there, here.rate);
             }
         }
-        if (met) return m.found = true, m.time = here.gap > 0 ? root(here, next, there) : t, m;
+        if (met) return m.found = true, m.time = root(here, next, there), m;
         t = next, here = there;
     }
     m.time = to;

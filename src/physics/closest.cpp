@@ -28,7 +28,7 @@ bool solveRows(const Planes& p, const std::array<double, 3>& b, std::array<doubl
     if (p.count == 1) return out[0] = b[0] / g(0, 0), true;
     if (p.count == 2) {
         const double det = g(0, 0) * g(1, 1) - g(0, 1) * g(0, 1);
-        if (!(det > 1e-10 * scale)) return false;
+        if (!(det > 1e-8 * scale)) return false;
         out[0] = (b[0] * g(1, 1) - b[1] * g(0, 1)) / det;
         out[1] = (b[1] * g(0, 0) - b[0] * g(0, 1)) / det;
         return true;
@@ -76,6 +76,44 @@ std::optional<ClosestPoint> footInOneStep(const Surface& surface, glm::dvec3 c, 
     return ClosestPoint{x, {s.distance}};
 }
 
+/// Newton's steps onto the surfaces and, if `towards`, along them towards c.
+std::optional<ClosestPoint> descend(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale, bool towards,
+                                    std::uint64_t& io_evaluations, bool* parallel) {
+    // The length of the step along the surfaces follows the last two (Barzilai,
+    // Borwein, "Two-Point Step Size Gradient Methods", 1988): near a strongly curved edge a full step overshoots.
+    // Neither may leave the place where the gradients mean something: a stride is limited.
+    glm::dvec3 x = start, last_x{0}, last_along{0};
+    double step = 0.5, most = 0.25 * scale;
+    for (int i = 0; i < kIterations; ++i) {
+        const Planes planes = linearise(surfaces, x, c, io_evaluations);
+        std::array<double, 3> onto{}, shares{}, apart{};
+        for (std::size_t k = 0; k < planes.count; ++k) apart[k] = glm::dot(planes.gradient[k], c - x);
+        if (!solveRows(planes, planes.value, onto) || !solveRows(planes, apart, shares)) {
+            if (parallel) *parallel = true;
+            return std::nullopt;
+        }
+        const glm::dvec3 normal = combine(planes, onto), along = c - x - combine(planes, shares);
+        const double d = glm::length(c - x), off = glm::length(normal), slant = glm::length(along);
+        if (!(off < 1e9) || !(slant < 1e9)) return std::nullopt;
+        // Where the distance hardly changes along an edge, as around a hole that the ball is right above, one point is as
+        // good as the next: after some rounds a slant of 1e-4 will do, whose gap errs by less than a resting depth.
+        const bool straight = !towards || slant <= (i < 10 ? 1e-8 : 1e-4) * d + 1e-12;
+        if (off <= 1e-11 * (1 + d) && straight) return ClosestPoint{x, shares};
+        if (i > 0) {
+            const glm::dvec3 moved = x - last_x, change = last_along - along;
+            const double curve = glm::dot(moved, change);
+            step = curve > 0 ? std::clamp(glm::dot(moved, moved) / curve, 0.02, 10.0) : 1.0;
+        }
+        last_x = x, last_along = along;
+        const glm::dvec3 stride = (straight ? 0.0 : step) * along - normal;
+        if (i == 0)
+            for (std::size_t k = 0; k < planes.count; ++k) most = std::max(most, 0.25 * std::fabs(planes.value[k]));
+        const double length = glm::length(stride);
+        x += stride * (length > most ? most / length : 1.0);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Slope slope(const Leaf& leaf, glm::dvec3 p) {
@@ -84,33 +122,17 @@ Slope slope(const Leaf& leaf, glm::dvec3 p) {
     return {d.v, leaf.rotation * glm::dvec3{d.dx, d.dy, d.dz}};
 }
 
-std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start,
-                                         std::uint64_t& io_evaluations) {
+std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                         std::uint64_t& io_evaluations, bool* parallel) {
     if (surfaces.size() == 1 && start == c)
         if (const auto foot = footInOneStep(surfaces[0], c, io_evaluations)) return foot;
 
-    // Newton's step onto the surfaces, and along them a step towards c whose length follows the last two (Barzilai,
-    // Borwein, "Two-Point Step Size Gradient Methods", 1988): near a strongly curved edge a full step overshoots.
-    glm::dvec3 x = start, last_x{0}, last_along{0};
-    double step = 0.5;
-    for (int i = 0; i < kIterations; ++i) {
-        const Planes planes = linearise(surfaces, x, c, io_evaluations);
-        std::array<double, 3> onto{}, shares{}, apart{};
-        for (std::size_t k = 0; k < planes.count; ++k) apart[k] = glm::dot(planes.gradient[k], c - x);
-        if (!solveRows(planes, planes.value, onto) || !solveRows(planes, apart, shares)) return std::nullopt;
-        const glm::dvec3 normal = combine(planes, onto), along = c - x - combine(planes, shares);
-        const double d = glm::length(c - x), off = glm::length(normal), slant = glm::length(along);
-        if (!(off < 1e9) || !(slant < 1e9)) return std::nullopt;
-        if (off <= 1e-11 * (1 + d) && slant <= 1e-8 * d + 1e-12) return ClosestPoint{x, shares};
-        if (i > 0) {
-            const glm::dvec3 moved = x - last_x, change = last_along - along;
-            const double curve = glm::dot(moved, change);
-            step = curve > 0 ? std::clamp(glm::dot(moved, moved) / curve, 0.02, 10.0) : 1.0;
-        }
-        last_x = x, last_along = along;
-        x += step * along - normal;
-    }
-    return std::nullopt;
+    return descend(surfaces, c, start, scale, true, io_evaluations, parallel);
+}
+
+std::optional<ClosestPoint> pointOn(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                    std::uint64_t& io_evaluations) {
+    return descend(surfaces, c, start, scale, false, io_evaluations, nullptr);
 }
 
 }  // namespace mb

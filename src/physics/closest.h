@@ -23,8 +23,13 @@ struct ClosestPoint {
 };
 
 /// A point where all of one to three surfaces are 0 and whose distance to c is a local minimum of theirs: on a face, on
-/// the curve where two cut one another, or at the corner of three. Nothing where the search finds none.
-std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start,
-                                         std::uint64_t& io_evaluations);
+/// the curve where two cut one another, or at the corner of three. Nothing where the search finds none, or where two of
+/// the gradients are parallel on its way (`parallel`, if not null, says so). `scale` is the size of what asks, a ball's radius: strides are of its order.
+std::optional<ClosestPoint> closestPoint(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                         std::uint64_t& io_evaluations, bool* parallel = nullptr);
+
+/// Some point near `start` where all of the surfaces are 0.
+std::optional<ClosestPoint> pointOn(std::span<const Surface> surfaces, glm::dvec3 c, glm::dvec3 start, double scale,
+                                    std::uint64_t& io_evaluations);
 
 }  // namespace mb

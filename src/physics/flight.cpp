@@ -245,7 +245,7 @@ void Flight::meet(const Event& event) {
         const auto k = static_cast<std::size_t>(i);
         paths_[k].turning = {};
         if (fast) paths_[k].acceleration = {0, -rules_.world.gravity, 0};
-        if (waits || paths_[k].events > kEventsAPart) hold(k);
+        if (waits || contacts.empty() || paths_[k].events > kEventsAPart) hold(k);
     }
     support(contacts);
     for (const int i : both) {

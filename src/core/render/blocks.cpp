@@ -43,8 +43,9 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
                                  with(leaf.rotation[2], k[2]), {k[3], leaf.object, 0, 0}});
         packed.reach = std::max(packed.reach, static_cast<float>(reachOf(leaf, position)));
     }
-    // A power of two, so that a change of one object's material seldom changes the shader.
-    packed.materials.resize(std::bit_ceil(packed.materials.size()), packMaterial({}));
+    // The array's size is part of the shader: a power of two, so that giving an object another material seldom changes it.
+    constexpr std::size_t kFewest = 16;
+    packed.materials.resize(std::bit_ceil(std::max(packed.materials.size(), kFewest)), packMaterial({}));
     for (const Branch& branch : tree.branches) packed.branches.push_back({branch.blend, 0, 0, 0});
     for (const Light& light : scene.lights)
         packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});

@@ -52,11 +52,12 @@ struct Resolver {
     }
 };
 
-/// The call of a leaf's function: sdBox(local(p, leaves[3]), vec3(…), …).
+/// The call of a leaf's function: sdBox(local(p, leaf3), vec3(…), …); a ball needs no rotation.
 std::string leafCall(const Leaf& leaf, std::size_t i) {
     static constexpr std::string_view kNumbers[] = {"x_axis.w", "y_axis.w", "z_axis.w", "extra.x"};
-    std::string call = fmt::format("{}({}(p, leaves[{}])", leaf.primitive->glsl, leaf.primitive->turns ? "local" : "centred", i);
-    const auto number = [&](int at) { return fmt::format("leaves[{}].{}", i, kNumbers[at]); };
+    std::string call = leaf.primitive->turns ? fmt::format("{}(local(p, leaf{})", leaf.primitive->glsl, i)
+                                             : fmt::format("{}(p - leaf{}.position.xyz", leaf.primitive->glsl, i);
+    const auto number = [&](int at) { return fmt::format("leaf{}.{}", i, kNumbers[at]); };
     int at = 0;
     for (const Parameter& p : leaf.primitive->parameters) {
         if (p.size == 3) call += fmt::format(", vec3({}, {}, {})", number(at), number(at + 1), number(at + 2));
@@ -69,7 +70,7 @@ std::string leafCall(const Leaf& leaf, std::size_t i) {
 
 /// The call of an operator on two distances. Without a blend the plain function is called with a constant, which folds away.
 std::string foldCall(const Branch& branch, std::size_t i, std::string_view a, std::string_view b) {
-    return fmt::format("{}({}, {}, {})", branch.op->glsl, a, b, branch.blend > 0 ? fmt::format("branches[{}].x", i) : "0.0");
+    return fmt::format("{}({}, {}, {})", branch.op->glsl, a, b, branch.blend > 0 ? fmt::format("blend{}", i) : "0.0");
 }
 
 /// Which operand's surface shows, as Operator::takesSecond says it.
@@ -143,8 +144,19 @@ std::string sceneGlsl(const Tree& tree) {
         }
         stack.back() = v;
     }
+    // llvmpipe reads a block anew at every use, even by a constant index: the numbers are read once, before any loop.
+    std::string held, read;
+    for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
+        held += fmt::format("Leaf leaf{};\n", i);
+        read += fmt::format("    leaf{0} = leaves[{0}];\n", i);
+    }
+    for (std::size_t i = 0; i < tree.branches.size(); ++i) {
+        if (!(tree.branches[i].blend > 0)) continue;
+        held += fmt::format("float blend{};\n", i);
+        read += fmt::format("    blend{0} = branches[{0}].x;\n", i);
+    }
     const bool empty = stack.empty();
-    return fmt::format("float map(vec3 p) {{\n{}    return {};\n}}\nNearest nearest(vec3 p) {{\n{}    return {};\n}}\n", map,
+    return held + fmt::format("void readScene() {{\n{}}}\n", read) + fmt::format("float map(vec3 p) {{\n{}    return {};\n}}\nNearest nearest(vec3 p) {{\n{}    return {};\n}}\n", map,
                        empty ? fmt::format("{:.1f}", kEmptyDistance) : "d" + stack.back(), find,
                        empty ? fmt::format("Nearest({:.1f}, -1)", kEmptyDistance) : "n" + stack.back());
 }

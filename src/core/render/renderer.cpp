@@ -39,7 +39,7 @@ Renderer::Renderer() {
 std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
     const Ready ready = prepare(scene, camera, size, Variant::plain, camera.eye);
     if (!ready.why.empty()) return ready.why;
-    if (picture_.size() != size) picture_ = Targets(size, 1);
+    if (picture_.size() != size) picture_ = Targets(size, 2);
     picture_.clear();
     glUseProgram(ready.program->name);
     gl.Enable(GL_BLEND);
@@ -58,6 +58,13 @@ std::vector<glm::vec3> Renderer::readPicture() const {
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture[i] = glm::vec3{pixels[4 * i], pixels[4 * i + 1], pixels[4 * i + 2]} / pixels[4 * i + 3];
     return picture;
+}
+
+std::size_t Renderer::countUndecided() const {
+    const std::vector<float> pixels = picture_.read(1);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 4) count += pixels[i] > 0;
+    return count;
 }
 
 std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out) {

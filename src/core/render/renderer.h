@@ -51,6 +51,8 @@ public:
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     /// The picture last drawn: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
+    /// How many of its pixels are undecided: their own ray ran out of steps, or all but touched something.
+    std::size_t countUndecided() const;
     const Targets& picture() const { return picture_; }
     /// Draws once more with counters: the other channels, and what draw() takes.
     std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out);

@@ -1,0 +1,69 @@
+#include "cli/cli.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace mb::cli {
+
+Exit reportFaults(const LoadResult& loaded, const std::string& path, const Common& common) {
+    if (!common.quiet)
+        for (const Fault& fault : loaded.warnings) fmt::print(stderr, "{}\n", describe(fault, path, "warning"));
+    for (const Fault& fault : loaded.faults) fmt::print(stderr, "{}\n", describe(fault, path));
+    if (!loaded.disk_fault.empty()) {
+        fmt::print(stderr, "{}\n", loaded.disk_fault);
+        return kDiskFault;
+    }
+    return loaded.faults.empty() ? kDone : kInputFault;
+}
+
+Scene readSceneFile(const std::string& path, const std::vector<std::string>& settings, const Common& common) {
+    LoadResult loaded = loadScene(path);
+    if (const Exit code = reportFaults(loaded, path, common); code != kDone) throw Failure{code, {}};
+    for (const std::string& setting : settings)
+        if (const auto why = setKnob(loaded.scene, setting)) throw Failure{kCommandFault, "--set " + setting + ": " + *why};
+    return std::move(loaded.scene);
+}
+
+std::unique_ptr<Context> headlessContext() {
+    std::string why;
+    auto context = makeHeadless(Headless::any, why);
+    if (!context) throw Failure{kNoOpenGl, "no OpenGL context can be had: " + why};
+    return context;
+}
+
+Progress::Progress(std::string what, std::uint64_t total, const Common& common)
+    : what_(std::move(what)), total_(total), on_(!common.quiet && total > 1 && isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (on_ && percent_ >= 0) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::show(std::uint64_t done) {
+    const int percent = static_cast<int>(100 * done / total_);
+    if (!on_ || percent == percent_) return;
+    percent_ = percent;
+    constexpr int kWidth = 30;
+    const int filled = kWidth * percent / 100;
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3} %", what_, "", filled, "", kWidth - filled, percent);
+    std::fflush(stderr);
+}
+
+void addSettings(CLI::App& app, std::vector<std::string>& settings) {
+    app.add_option("--set", settings, "any key of the scene's render, physics or world record, as KEY=VALUE; repeatable")
+        ->allow_extra_args(false);
+}
+
+void writeText(const std::string& path, const std::string& text) {
+    std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
+    bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+    const int error = errno;
+    if (file && file != stdout) written = std::fclose(file) == 0 && written;
+    if (!written) throw Failure{kDiskFault, fmt::format("{}: {}", path, std::strerror(error))};
+}
+
+}  // namespace mb::cli

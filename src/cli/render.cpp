@@ -1,0 +1,211 @@
+// marchbox render: pictures without a window.
+#include "cli/cli.h"
+#include "cli/film.h"
+
+#include "core/render/picture.h"
+#include "core/render/renderer.h"
+#include "physics/world.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <charconv>
+#include <cmath>
+
+namespace mb::cli {
+namespace {
+
+struct Options {
+    std::string scene, out, camera, stats, size = "640x360";
+    std::vector<std::string> settings, aov;
+    double at_s = 0, fps = 25;
+    int frames = 0;
+};
+
+/// One row a channel: its name, and how it is written.
+struct Aov {
+    std::string_view name;
+    std::string (*write)(const std::string& path, const Measured& measured, const std::vector<glm::vec3>& color);
+};
+constexpr Aov kAovs[] = {
+    {"depth", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.depth); }},
+    {"normal", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.normal); }},
+    {"object", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.object); }},
+    {"color", [](const std::string& p, const Measured& m, const auto& color) { return writePfm(p, m.channels.size, color); }},
+    {"steps", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.steps); }},
+    {"state", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.state); }},
+};
+
+glm::ivec2 parseSize(const std::string& text) {
+    glm::ivec2 size{0};
+    const char* const end = text.data() + text.size();
+    const auto [x, x_error] = std::from_chars(text.data(), end, size.x);
+    if (x_error == std::errc{} && x != end && *x == 'x') {
+        const auto [y, y_error] = std::from_chars(x + 1, end, size.y);
+        if (y_error == std::errc{} && y == end && size.x > 0 && size.y > 0) return size;
+    }
+    throw Failure{kCommandFault, fmt::format("--size {}: expected WxH, as in 640x360", text)};
+}
+
+std::vector<const Aov*> parseAovs(const std::vector<std::string>& names) {
+    std::vector<const Aov*> wanted;
+    for (const std::string& name : names) {
+        const auto row = std::ranges::find(kAovs, name, &Aov::name);
+        if (row == std::end(kAovs))
+            throw Failure{kCommandFault, fmt::format("--aov {}: there are depth, normal, object, color, steps and state", name)};
+        wanted.push_back(row);
+    }
+    return wanted;
+}
+
+Camera chooseCamera(const Scene& scene, const std::string& name) {
+    if (name.empty()) return defaultCamera(scene);
+    const auto camera = std::ranges::find(scene.cameras, name, &Camera::name);
+    if (camera == scene.cameras.end()) throw Failure{kInputFault, fmt::format("the scene has no camera named '{}'", name)};
+    return *camera;
+}
+
+/// The one place of a "%04d" or "%d" in a sequence's name: its text before, after, and the digits.
+struct SequenceName {
+    std::string before, after;
+    int digits = 0;
+    std::string of(int frame) const { return fmt::format("{}{:0{}}{}", before, frame, digits, after); }
+};
+SequenceName parseSequenceName(const std::string& out) {
+    const std::size_t percent = out.find('%');
+    const std::size_t d = percent == std::string::npos ? percent : out.find('d', percent);
+    const std::string digits = d == std::string::npos ? "x" : out.substr(percent + 1, d - percent - 1);
+    if (digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 2 || out.find('%', percent + 1) != std::string::npos)
+        throw Failure{kCommandFault, fmt::format("-o {}: a sequence needs a name like NAME_%04d.png, or NAME.mp4", out)};
+    return {out.substr(0, percent), out.substr(d + 1), digits.empty() ? 0 : std::stoi(digits)};
+}
+
+void orInputFault(const std::string& why) {
+    if (!why.empty()) throw Failure{kInputFault, why};
+}
+void orDiskFault(const std::string& why) {
+    if (!why.empty()) throw Failure{kDiskFault, why};
+}
+
+/// The scene's bodies moved on by whole steps; a scene without bodies has no world.
+class Motion {
+public:
+    explicit Motion(const Scene& scene) : dt_s_(scene.physics.dt) {
+        if (std::ranges::any_of(scene.objects, &Object::isBody)) world_.emplace(scene);
+    }
+    void advanceTo(double time_s, Scene& scene, const Common& common) {
+        if (!world_) return;
+        const auto steps = static_cast<std::uint64_t>(std::llround(time_s / dt_s_));
+        Progress progress("simulating", steps, common);
+        while (world_->steps() < steps) {
+            world_->step();
+            progress.show(world_->steps());
+        }
+        world_->writeTo(scene);
+    }
+
+private:
+    double dt_s_;
+    std::optional<PhysicsWorld> world_;
+};
+
+nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, double first_ms, std::vector<double> later_ms) {
+    std::ranges::sort(later_ms);
+    const Counts& c = m.counts;
+    nlohmann::ordered_json json = {
+        {"width", m.channels.size.x}, {"height", m.channels.size.y},
+        {"frame_ms", later_ms[later_ms.size() / 2]}, {"first_frame_ms", first_ms},
+        {"rays", {{"primary", c.rays.primary}, {"shadow", c.rays.shadow}, {"reflection", c.rays.reflection}}},
+        {"evaluations", {{"primary", c.evaluations.primary}, {"normal", c.evaluations.normal}, {"shadow", c.evaluations.shadow},
+                         {"reflection", c.evaluations.reflection}}},
+        {"pixels", {{"hit", c.pixels.hit}, {"miss", c.pixels.miss}, {"undecided", c.pixels.undecided}}},
+        {"undecided_rays", {{"shadow", c.undecided_rays.shadow}, {"reflection", c.undecided_rays.reflection}}}};
+    json["effects"] = nlohmann::ordered_json::array();
+    for (const Plan::Called& called : renderer.plan().called) json["effects"].push_back(called.effect->name);
+    json["passes"] = renderer.plan().passes.size();
+    json["renderer"] = renderer.rendererName();
+    return json;
+}
+
+/// Draws once and says how long it took, to the last pixel.
+double drawTimed(Renderer& renderer, const Scene& scene, const Camera& camera, glm::ivec2 size) {
+    const auto from = std::chrono::steady_clock::now();
+    orInputFault(renderer.draw(scene, camera, size));
+    gl.Finish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - from).count();
+}
+
+void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Common& common) {
+    const std::vector<const Aov*> aovs = parseAovs(options.aov);
+    Motion(scene).advanceTo(options.at_s, scene, common);
+    const Camera camera = chooseCamera(scene, options.camera);
+    const auto context = headlessContext();
+    Renderer renderer;
+    const double first_ms = drawTimed(renderer, scene, camera, size);
+    const std::vector<glm::vec3> picture = renderer.readPicture();
+    orDiskFault(writePng(options.out, size, picture));
+    if (const std::size_t undecided = renderer.countUndecided(); undecided > 0 && !common.quiet)
+        fmt::print(stderr, "{}: note: {} of {} pixels are undecided ({:.2g} %); --aov state says which, --set show_undecided=1 shows them\n",
+                   options.scene, undecided, picture.size(), 100.0 * static_cast<double>(undecided) / static_cast<double>(picture.size()));
+    if (aovs.empty() && options.stats.empty()) return;
+
+    constexpr int kTimedFrames = 3;
+    std::vector<double> later_ms;
+    for (int i = 0; i < kTimedFrames && !options.stats.empty(); ++i) later_ms.push_back(drawTimed(renderer, scene, camera, size));
+    Measured measured;
+    orInputFault(renderer.measure(scene, camera, size, measured));
+    const std::string stem = options.out.ends_with(".png") ? options.out.substr(0, options.out.size() - 4) : options.out;
+    for (const Aov* aov : aovs) orDiskFault(aov->write(fmt::format("{}.{}.pfm", stem, aov->name), measured, picture));
+    if (!options.stats.empty()) writeText(options.stats, statistics(renderer, measured, first_ms, later_ms).dump(2) + '\n');
+}
+
+void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const Common& common) {
+    if (!options.aov.empty() || !options.stats.empty()) throw Failure{kCommandFault, "--aov and --stats are for one picture, without --frames"};
+    const bool film_wanted = options.out.ends_with(".mp4");
+    const SequenceName name = film_wanted ? SequenceName{} : parseSequenceName(options.out);
+    Motion motion(scene);
+    const auto context = headlessContext();
+    Renderer renderer;
+    std::optional<Film> film;
+    if (film_wanted) film.emplace(options.out, size, options.fps);
+    Progress progress("rendering", static_cast<std::uint64_t>(options.frames), common);
+    Common quiet = common;
+    quiet.quiet = true;
+    for (int i = 0; i < options.frames; ++i) {
+        motion.advanceTo(options.at_s + i / options.fps, scene, quiet);
+        orInputFault(renderer.draw(scene, chooseCamera(scene, options.camera), size));
+        const std::vector<glm::vec3> picture = renderer.readPicture();
+        if (film) film->add(encodeSrgb(picture));
+        else orDiskFault(writePng(name.of(i), size, picture));
+        progress.show(static_cast<std::uint64_t>(i) + 1);
+    }
+    if (film) film->finish();
+}
+
+std::function<void()> make(CLI::App& app, Common& common) {
+    const auto o = std::make_shared<Options>();
+    app.add_option("SCENE", o->scene, "scene file")->required();
+    app.add_option("-o,--output", o->out, "the picture: OUT.png, or with --frames NAME_%04d.png or NAME.mp4")->required();
+    app.add_option("--size", o->size, "WxH pixels")->capture_default_str();
+    app.add_option("--at", o->at_s, "simulate this many seconds first")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--camera", o->camera, "the scene's camera of that name");
+    addSettings(app, o->settings);
+    app.add_option("--aov", o->aov, "also write OUT.NAME.pfm of depth, normal, object, color, steps, state: a list with commas")->delimiter(',');
+    app.add_option("--stats", o->stats, "write what it took, as JSON, to this file ('-': standard output)");
+    app.add_option("--frames", o->frames, "how many frames of a sequence or film")->check(CLI::Range(1, 1'000'000));
+    app.add_option("--fps", o->fps, "frames a second")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
+    return [o, &common] {
+        const glm::ivec2 size = parseSize(o->size);
+        const Scene scene = readSceneFile(o->scene, o->settings, common);
+        o->frames > 0 ? renderSequence(*o, scene, size, common) : renderStill(*o, scene, size, common);
+    };
+}
+
+}  // namespace
+
+const Command kRender{"render", "renders without a window", "marchbox render saves/welcome.txt -o welcome.png --size 1280x720 --set samples=4", make};
+
+}  // namespace mb::cli

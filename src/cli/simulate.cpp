@@ -1,0 +1,129 @@
+// marchbox simulate: the physics without drawing.
+#include "cli/cli.h"
+
+#include "physics/world.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace mb::cli {
+namespace {
+
+struct Options {
+    std::string scene, trace;
+    double seconds = 0;
+    std::uint64_t every = 1;
+    double dt = 0;
+    int substeps = 0;
+    bool json = true;
+    std::vector<std::string> settings;
+};
+
+/// The trace: a row for each body at each step, in the columns of the command line's description.
+class Trace {
+public:
+    Trace(const std::string& path) : path_(path), file_(path.empty() ? nullptr : std::fopen(path.c_str(), "wb")) {
+        if (!path.empty() && !file_) throw Failure{kDiskFault, fmt::format("{}: {}", path, std::strerror(errno))};
+        write("time,name,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n");
+    }
+    ~Trace() {
+        if (file_) std::fclose(file_);
+    }
+    Trace(const Trace&) = delete;
+    Trace& operator=(const Trace&) = delete;
+
+    void add(const PhysicsWorld& world) {
+        if (!file_) return;
+        for (const Body& b : world.bodies())
+            write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", world.time_s(), quoted(b.name), b.position.x, b.position.y,
+                              b.position.z, b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z, b.velocity.x, b.velocity.y,
+                              b.velocity.z, b.spin.x, b.spin.y, b.spin.z));
+    }
+    void finish() {
+        if (!file_) return;
+        const bool flushed = std::fclose(std::exchange(file_, nullptr)) == 0;
+        if (!flushed) fail();
+    }
+
+private:
+    static std::string quoted(const std::string& name) {
+        if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+        std::string text = "\"";
+        for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+        return text + '"';
+    }
+    void write(const std::string& text) {
+        if (file_ && std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
+    }
+    [[noreturn]] void fail() { throw Failure{kDiskFault, fmt::format("{}: {}", path_, std::strerror(errno))}; }
+
+    std::string path_;
+    std::FILE* file_;
+};
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+void run(const Options& options, const Common& common) {
+    Scene scene = readSceneFile(options.scene, options.settings, common);
+    if (options.dt > 0) scene.physics.dt = options.dt;
+    if (options.substeps > 0) scene.physics.substeps = options.substeps;
+    const double wanted = std::round(options.seconds / scene.physics.dt);
+    if (!(wanted < 1e12)) throw Failure{kCommandFault, fmt::format("--seconds {}: that is {} steps of {} s", options.seconds, wanted, scene.physics.dt)};
+    const auto steps = static_cast<std::uint64_t>(wanted);
+
+    PhysicsWorld world(scene);
+    Trace trace(options.trace);
+    trace.add(world);
+    std::vector<double> step_ms;
+    Progress progress("simulating", steps, common);
+    for (std::uint64_t i = 1; i <= steps; ++i) {
+        const auto from = std::chrono::steady_clock::now();
+        world.step();
+        step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - from).count());
+        if (i % options.every == 0) trace.add(world);
+        progress.show(i);
+    }
+    trace.finish();
+    if (!common.quiet)
+        for (const std::string& note : world.notes()) fmt::print(stderr, "{}: note: {}\n", options.scene, note);
+
+    const auto energy = world.energy();
+    const glm::dvec3 p = world.momentum();
+    const nlohmann::ordered_json json = {
+        {"seconds", world.time_s()}, {"steps", world.steps()}, {"bodies", world.bodies().size()}, {"awake", world.awake()},
+        {"step_ms", median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
+        {"momentum", {p.x, p.y, p.z}}, {"max_penetration", world.maxPenetration()}, {"removed", world.removed()},
+        {"state", world.stateText()}};
+    writeText("-", json.dump() + '\n');
+}
+
+std::function<void()> make(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("SCENE", options->scene, "scene file")->required();
+    app.add_option("--seconds", options->seconds, "how long")->required()->check(CLI::NonNegativeNumber);
+    app.add_option("--dt", options->dt, "seconds a step, instead of the scene's")->check(CLI::Range(1e-6, 1.0));
+    app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(CLI::Range(1, 1000));
+    app.add_option("--trace", options->trace, "a CSV file with a row for each body at each step");
+    app.add_option("--every", options->every, "rows only for every Nth step")->check(CLI::PositiveNumber);
+    app.add_flag("--json", options->json, "the answer is JSON with or without this");
+    addSettings(app, options->settings);
+    return [options, &common] { run(*options, common); };
+}
+
+}  // namespace
+
+const Command kSimulate{"simulate", "runs the physics without drawing, and prints a line of JSON",
+                        "marchbox simulate saves/bowl.txt --seconds 5 --trace bowl.csv", make};
+
+}  // namespace mb::cli
