@@ -83,13 +83,16 @@ void drawPicture(Ui& ui) {
         ui.planned_revision = editor.revision(), ui.plan = {};
         if (!firstUnevaluated(editor.scene())) ui.plan = makePlan(editor.scene(), makeTree(editor.scene()));
     }
-    if (ImGui::BeginTable("plan", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-        for (const Plan::Called& called : ui.plan.called)
-            row({std::string(called.effect->name), fmt::format("{} (by {})", called.effect->what, called.by)});
-        ImGui::EndTable();
+    for (const Plan::Called& called : ui.plan.called) {
+        ImGui::TextUnformatted(called.effect->name.data(), called.effect->name.data() + called.effect->name.size());
+        ImGui::SameLine();
+        ui::remark(fmt::format("{}; called for by {}", called.effect->what, called.by));
     }
     if (!ui.plan.refused.empty()) ui::remark(ui.plan.refused);
     ui::remark(fmt::format("passes: {}, at most {} loop iterations a pixel", ui.plan.passes.size(), ui.plan.loop_iterations));
+    if (ui::button("Count", "draws once more, smaller, with counters: what the picture takes and what it leaves undecided", -1))
+        ui.picture.count_wanted = true;
+    if (!ui.picture.counts.empty()) ui::remark(ui.picture.counts);
     if (!ui.picture.renderer.empty()) ui::remark(fmt::format("drawn by {}", ui.picture.renderer));
 }
 

@@ -21,6 +21,8 @@ struct PictureState {
     bool refining = false;
     std::string why;               // it cannot be drawn; the last one that could still shows
     std::string renderer;          // GL_RENDERER
+    bool count_wanted = false;     // asked for by a panel; the viewport answers in `counts`
+    std::string counts;
 };
 
 /// A key that went down, with what was held beside it.

@@ -1,5 +1,7 @@
 #include "gui/viewport.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -117,6 +119,20 @@ void Viewport::drawTile(const Scene& scene, const Camera& camera) {
     if (next_row_ >= size_.y) refined_ = true, drawn_ = size_, shown_ms_ = refining_ms_;
 }
 
+/// What a picture takes, counted at a size that a frame has time for.
+std::string Viewport::count(const Scene& scene, const Camera& camera) {
+    const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
+    Measured measured;
+    if (const std::string why = renderer_->measure(scene, camera, size, measured); !why.empty()) return why;
+    const Counts& c = measured.counts;
+    const double pixels = static_cast<double>(size.x) * size.y;
+    const auto each = [&](std::uint64_t n) { return static_cast<double>(n) / pixels; };
+    return fmt::format("at {}x{}, evaluations a pixel: {:.1f} primary, {:.1f} normal, {:.1f} shadow, {:.1f} reflection; undecided: {} of {} pixels, "
+                       "{} of {} shadow rays, {} of {} reflected rays", size.x, size.y, each(c.evaluations.primary), each(c.evaluations.normal),
+                       each(c.evaluations.shadow), each(c.evaluations.reflection), c.pixels.undecided, size.x * size.y, c.undecided_rays.shadow,
+                       c.rays.shadow, c.undecided_rays.reflection, c.rays.reflection);
+}
+
 void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state) {
     state.renderer = renderer_->rendererName();
     busy_ = false;
@@ -146,6 +162,7 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     }
     if (!why_.empty() && moved) renderer_->present(corner_, size_), keepShown(corner_, size_);  // the last one that could be drawn
     else if (!why_.empty()) showKept();
+    if (state.count_wanted) state.count_wanted = false, state.counts = count(editor.scene(), editor.camera());
     busy_ = !refined_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.refining = busy_ && next_row_ > 0;

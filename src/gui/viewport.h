@@ -27,6 +27,7 @@ public:
 private:
     void drawPreview(const Scene& scene, const Camera& camera);
     void drawTile(const Scene& scene, const Camera& camera);
+    std::string count(const Scene& scene, const Camera& camera);
     bool draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     void keepShown(glm::ivec2 corner, glm::ivec2 size);
     void showKept();

@@ -20,7 +20,7 @@ void note(std::string_view label) {
 
 namespace {
 
-constexpr float kNameWidth = 92;  // pixels at the font's first size; the rest of the line is the control's
+constexpr float kNameWidth = 112;  // pixels at the font's first size; the rest of the line is the control's
 
 /// The line's name on the left; leaves the cursor where the control comes.
 void name(const Row& row) {

@@ -158,6 +158,21 @@ TEST_CASE("in the real window: add an object through the menus, save, close, com
     sphere.name = "sphere", sphere.pos = {0, 1, 0};
     REQUIRE(expected.addObject(sphere));
     CHECK(contents(file) == writeScene(expected.scene()));
+
+    // The program itself opens the file it wrote, and closes at once: nothing is unsaved.
+    if (fs::exists(MARCHBOX_BINARY)) {
+        Child program{::fork()};
+        if (program.pid == 0) {
+            ::execl(MARCHBOX_BINARY, "marchbox", "edit", file.c_str(), static_cast<char*>(nullptr));
+            ::_exit(127);
+        }
+        Running::xdo("search --sync --onlyvisible --name marchbox windowfocus >/dev/null");
+        rest(1500);
+        Running::xdo("key Escape");
+        CHECK(program.wait() == 0);
+    } else {
+        WARN_MESSAGE(false, MARCHBOX_BINARY << " is not built: it was NOT opened");
+    }
     fs::remove_all(folder);
 }
 
