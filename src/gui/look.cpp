@@ -39,8 +39,8 @@ void setLook(float scale) {
     style.WindowBorderSize = 1, style.FramePadding = {6, 3}, style.ItemSpacing = {6, 5}, style.ItemInnerSpacing = {4, 4};
     style.ScrollbarSize = 12, style.GrabMinSize = 9;
     ImVec4* c = style.Colors;
-    c[ImGuiCol_WindowBg] = {0.11f, 0.12f, 0.14f, 0.97f};
-    c[ImGuiCol_PopupBg] = {0.13f, 0.14f, 0.17f, 0.98f};
+    c[ImGuiCol_WindowBg] = {0.11f, 0.12f, 0.14f, 1};
+    c[ImGuiCol_PopupBg] = {0.13f, 0.14f, 0.17f, 1};
     c[ImGuiCol_MenuBarBg] = {0.15f, 0.16f, 0.19f, 1};
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgCollapsed] = {0.15f, 0.16f, 0.19f, 1};
     c[ImGuiCol_TitleBgActive] = {0.19f, 0.22f, 0.28f, 1};

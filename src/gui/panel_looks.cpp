@@ -12,7 +12,7 @@ namespace {
 /// A list of named records with swatches; returns the row chosen.
 template <class Record> int list(const char* id, const std::vector<Record>& records, int chosen) {
     const int shown = std::clamp(static_cast<int>(records.size()), 2, 6);
-    ImGui::BeginChild(id, {0, ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(shown) + 8}, true);
+    ImGui::BeginChild(id, {0, ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(shown) + 2 * ImGui::GetStyle().WindowPadding.y}, true);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(records.size()));
     while (clipper.Step())

@@ -99,7 +99,11 @@ void drawPanel(Ui& ui, const Entry& entry, std::size_t i) {
     }
     bool stays = true;
     ui::seen_panel = entry.name;
-    if (ImGui::Begin(entry.name, &stays, flags)) entry.draw(ui);
+    const bool shown = ImGui::Begin(entry.name, &stays, flags);
+    // A window that was made small and large again leaves no panel beyond its edges.
+    if (const ImVec2 at = ImGui::GetWindowPos(); entry.place == Place::floating && (at.x < 0 || at.y < ui.picture_corner.y))
+        ImGui::SetWindowPos({std::max(at.x, 0.0f), std::max(at.y, ui.picture_corner.y)});
+    if (shown) entry.draw(ui);
     ImGui::End();
     if (!stays) ui.open[i] = false;
 }
