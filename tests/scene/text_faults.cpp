@@ -118,9 +118,9 @@ TEST_CASE("numbers: what is one and what is not") {
         const ReadResult r = readScene(fmt::format("marchbox 1\nworld gravity:{}\n", number));
         return r.ok() ? fmt::format("{}", r.scene.world.gravity) : "refused: " + r.faults.front().message;
     };
-    for (const auto& [text, value] : {std::pair{"1", "1"}, {"-1", "-1"}, {"1.", "1"}, {".5", "0.5"}, {"-.5", "-0.5"}, {"1e3", "1000"},
+    for (const auto& row : {std::pair{"1", "1"}, {"-1", "-1"}, {"1.", "1"}, {".5", "0.5"}, {"-.5", "-0.5"}, {"1e3", "1000"},
                                       {"1E+3", "1000"}, {"1e-3", "0.001"}, {"007", "7"}, {"-0", "-0"}, {"5e-324", "5e-324"}})
-        CHECK_MESSAGE(gravity(text) == value, text);
+        CHECK_MESSAGE(gravity(row.first) == row.second, row.first);
     for (const char* text : {"nan", "inf", "-inf", "+1", "0x1p3", "0x1", "1e", "1e+", "--1", "1-1", ".", "-", "e5", "1.2.3", "1f", "1_000",
                              "٣", "1;", "NaN", "Infinity", "1e1.5", "1 e5"})
         CHECK_MESSAGE(gravity(text).starts_with("refused: "), text);
@@ -168,6 +168,7 @@ TEST_CASE("indents and children") {
     CHECK(in("object type:unoin\n  " + ball) == "2:13: unknown type 'unoin', the nearest is 'union'");
     CHECK(in("objekt type:union\n  " + ball) == "2:1: unknown keyword 'objekt', the nearest is 'object'");
     CHECK(in("object type:union name:\"\n  " + ball) == "2:24: the quotes are not closed, expected \" before the end of the line");
+    CHECK(in("object type:union\n# \x01\n  " + ball) == "3:3: a control character (0x01), expected text");
     CHECK(in("object type:union\n  \x01\n    " + ball) == "3:3: a control character (0x01), expected text");
 }
 

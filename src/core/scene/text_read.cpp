@@ -68,30 +68,33 @@ bool Reader::wholeText(std::string_view bytes) {
 }
 
 void Reader::readLine(std::string_view line) {
-    line_.pieces.clear();
-    const std::size_t bad = line.size() > Limits::line_bytes ? 0 : firstBadByte(line);
     if (line.size() > Limits::line_bytes) {
         faults_.add(Limits::line_bytes, fmt::format("the line has {} bytes, expected at most {}", line.size(), Limits::line_bytes));
-    } else if (bad < line.size()) {
-        const auto byte = static_cast<unsigned char>(line[bad]);
-        if (byte == 0) {
-            faults_.add(bad, "a NUL byte, expected text");
-            faults_.stop();
-        } else if (byte == '\r') faults_.add(bad, "a carriage return inside a line, expected lines that end in LF or CRLF");
-        else if (byte < 0x80) faults_.add(bad, fmt::format("a control character (0x{:02x}), expected text", byte));
-        else faults_.add(bad, fmt::format("a byte (0x{:02x}) that is not UTF-8, expected UTF-8", byte));
-    } else {
-        cut(line, line_);
-        for (LexFault& f : line_.faults) faults_.add(f.at, std::move(f.message));
-        if (line_.pieces.empty() && line_.faults.empty()) return;
-        // Of a line whose first piece is unsound nothing more can be told.
-        if (!line_.pieces.empty() && (line_.faults.empty() || line_.faults.front().at > line_.pieces.front().at)) {
-            if (first(line_)) form_ == Form::older ? older(line_) : record(line_);
-            return;
-        }
+        return unreadable(line);
     }
-    // Nothing is said of the children of a record that could not be read.
-    const std::size_t depth = std::min(line.find_first_not_of(' '), line.size()) / 2;
+    if (const std::size_t bad = firstBadByte(line); bad < line.size()) {
+        badByte(bad, static_cast<unsigned char>(line[bad]));
+        return unreadable(line);
+    }
+    cut(line, line_);
+    for (LexFault& f : line_.faults) faults_.add(f.at, std::move(f.message));
+    if (line_.pieces.empty() && line_.faults.empty()) return;
+    // Of a line whose first piece is unsound nothing more can be told.
+    if (line_.pieces.empty() || (!line_.faults.empty() && line_.faults.front().at < line_.pieces.front().at)) return unreadable(line);
+    if (first(line_)) form_ == Form::older ? older(line_) : record(line_);
+}
+
+void Reader::badByte(std::size_t at, unsigned char byte) {
+    if (byte == '\0') faults_.add(at, "a NUL byte, expected text"), faults_.stop();
+    else if (byte == '\r') faults_.add(at, "a carriage return inside a line, expected lines that end in LF or CRLF");
+    else if (byte < 0x80) faults_.add(at, fmt::format("a control character (0x{:02x}), expected text", byte));
+    else faults_.add(at, fmt::format("a byte (0x{:02x}) that is not UTF-8, expected UTF-8", byte));
+}
+
+/// Keeps the place of a record that could not be read, so that nothing is said of its children or its parent.
+void Reader::unreadable(std::string_view line) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size()), depth = indent / 2;
+    if (line.substr(indent).starts_with('#')) return;
     if (depth < levels_.size()) levels_.resize(depth);
     if (!levels_.empty() && levels_.back().object >= 0) ++children_[static_cast<std::size_t>(levels_.back().object)];
     if (levels_.size() < Limits::levels) levels_.push_back({-1, true});

@@ -80,6 +80,8 @@ private:
 
     bool wholeText(std::string_view bytes);
     void readLine(std::string_view line);
+    void badByte(std::size_t at, unsigned char byte);
+    void unreadable(std::string_view line);
     bool first(const Line& line);
     void version(const Line& line);
     void record(const Line& line);
