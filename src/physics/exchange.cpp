@@ -23,12 +23,6 @@ Tree ownShape(const Scene& scene, std::size_t object) {
     return makeTree(alone);
 }
 
-bool evaluated(const Scene& scene, std::size_t object) {
-    for (std::size_t i = object, end = subtreeEnd(scene, object); i < end; ++i)
-        if (const ShapeType& type = *scene.objects[i].type; type.isOperator() && !asOperator(type).evaluated()) return false;
-    return true;
-}
-
 /// Whether the object moves; if not though it should, why.
 struct Movable {
     bool moves = false;

@@ -40,13 +40,13 @@ std::vector<signed char> sidesOf(const Tree& tree) {
     return side;
 }
 
+}  // namespace
+
 bool evaluated(const Scene& scene, std::size_t object) {
     for (std::size_t i = object, end = subtreeEnd(scene, object); i < end; ++i)
         if (const ShapeType& type = *scene.objects[i].type; type.isOperator() && !asOperator(type).evaluated()) return false;
     return true;
 }
-
-}  // namespace
 
 StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes) {
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) {

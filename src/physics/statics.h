@@ -5,6 +5,9 @@
 
 namespace mb {
 
+/// Whether an evaluator knows every part of this object.
+bool evaluated(const Scene& scene, std::size_t object);
+
 /// A point of a static surface near a ball.
 struct Touch {
     glm::dvec3 point{0};
