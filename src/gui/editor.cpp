@@ -206,10 +206,9 @@ bool Editor::setObject(std::size_t index, const Object& values) {
     if (before_)
         for (Object& b : *before_) {
             if (b.id != o.id) continue;
-            if (wanted.pos != o.pos) b.pos = wanted.pos;
-            if (wanted.rot != o.rot) b.rot = wanted.rot;
-            if (wanted.vel != o.vel) b.vel = wanted.vel;
-            if (wanted.spin != o.spin) b.spin = wanted.spin;
+            for (const auto member : {&Object::pos, &Object::rot, &Object::vel, &Object::spin})
+                for (int k = 0; k < 3; ++k)
+                    if ((wanted.*member)[k] != (o.*member)[k]) (b.*member)[k] = (wanted.*member)[k];
         }
     o = std::move(wanted);
     edited(true);

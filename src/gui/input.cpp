@@ -37,20 +37,22 @@ void handleMouse(Ui& ui) {
 
 void handleInput(Ui& ui) {
     handleMouse(ui);
-    const ImGuiIO& io = ImGui::GetIO();
-    // While a control is held, a text is typed or a question waits, keys are theirs; and so is Esc in an open menu.
-    if (io.WantTextInput || ImGui::IsAnyItemActive() || ui.after) return;
-    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) {
-        if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) ImGui::ClosePopupToLevel(0, true);
-        return;
-    }
-    for (std::size_t i = 0; i < entries().size(); ++i) {
-        const Entry& entry = entries()[i];
-        if (!entry.shortcut.key || io.KeyCtrl != entry.shortcut.ctrl || io.KeyAlt || io.KeySuper) continue;
-        if (!ImGui::IsKeyPressed(entry.shortcut.key, entry.shortcut.repeats)) continue;
-        if (entry.enabled && !entry.enabled(ui)) continue;
-        if (entry.run) entry.run(ui);
-        else ui.open[i] = !ui.open[i];
+    const std::vector<KeyPress> pressed = std::move(ui.pressed);
+    ui.pressed.clear();
+    // While a control is held, a text is typed or a question waits, keys are theirs.
+    if (ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive() || ui.after) return;
+    for (const KeyPress& press : pressed) {
+        if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) {
+            if (press.key == GLFW_KEY_ESCAPE) ImGui::ClosePopupToLevel(0, true);
+            continue;
+        }
+        for (std::size_t i = 0; i < entries().size(); ++i) {
+            const Entry& entry = entries()[i];
+            if (entry.shortcut.key != press.key || entry.shortcut.ctrl != press.ctrl) continue;
+            if ((press.repeated && !entry.shortcut.repeats) || (entry.enabled && !entry.enabled(ui))) continue;
+            if (entry.run) entry.run(ui);
+            else ui.open[i] = !ui.open[i];
+        }
     }
 }
 

@@ -23,12 +23,20 @@ struct PictureState {
     std::string renderer;          // GL_RENDERER
 };
 
+/// A key that went down, with what was held beside it.
+struct KeyPress {
+    int key = 0;        // GLFW's number
+    bool ctrl = false, repeated = false;
+};
+
 struct Ui {
     explicit Ui(Editor& edited);
 
     Editor& editor;
     std::vector<bool> open;            // one a row of entries()
     bool quit = false;                 // the program is to end
+    // Since the last frame. A slow frame may see a key go down and up again, which Dear ImGui's state of keys does not tell.
+    std::vector<KeyPress> pressed;
     // Where the picture is: what the docked panels and the bars leave of the window; in ImGui's units, from the top left.
     ImVec2 picture_corner{0, 0}, picture_size{0, 0};
     PictureState picture;

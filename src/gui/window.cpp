@@ -61,6 +61,12 @@ GLFWwindow* makeWindow(const EditorOptions& options) {
 /// Dear ImGui with its two back ends, for as long as this lives.
 struct Panels {
     explicit Panels(GLFWwindow* window) {
+        // Dear ImGui's back end, installed after this, calls it first.
+        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+            auto* ui = static_cast<Ui*>(glfwGetWindowUserPointer(w));
+            if (ui && action != GLFW_RELEASE && !(mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)))
+                ui->pressed.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+        });
         ImGui::CreateContext();
         ImGui::GetIO().IniFilename = nullptr;
         float scale = 1, ignored = 1;
@@ -117,7 +123,12 @@ void setTitle(GLFWwindow* window, const Editor& editor, std::string& shown) {
 void drawFrame(GLFWwindow* window, Ui& ui, Viewport& viewport) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // A key that is up again already counts as down for this frame.
+    std::vector<int> tapped;
+    for (const KeyPress& press : ui.pressed)
+        if (press.key >= 0 && !ImGui::GetIO().KeysDown[press.key]) ImGui::GetIO().KeysDown[press.key] = true, tapped.push_back(press.key);
     ImGui::NewFrame();
+    for (const int key : tapped) ImGui::GetIO().KeysDown[key] = false;
     handleInput(ui);
     drawInterface(ui);
     ImGui::Render();
@@ -136,6 +147,7 @@ void loop(GLFWwindow* window, Editor& editor, const EditorOptions& options) {
     Panels panels(window);
     Viewport viewport;
     Ui ui(editor);
+    glfwSetWindowUserPointer(window, &ui);
     Pace pace;
     std::string title;
     while (!ui.quit) {
@@ -150,6 +162,7 @@ void loop(GLFWwindow* window, Editor& editor, const EditorOptions& options) {
         drawFrame(window, ui, viewport);
         if (options.after_frame) options.after_frame(ui);
     }
+    glfwSetWindowUserPointer(window, nullptr);
 }
 
 }  // namespace

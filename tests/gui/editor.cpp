@@ -1,4 +1,5 @@
 // The editor without any panel: its commands, and what they keep true.
+#include "core/scene/keys.h"
 #include "core/scene/text.h"
 #include "gui/editor.h"
 
@@ -235,12 +236,13 @@ TEST_CASE("a body that leaves the world comes back with a reset, one that was re
     world.bounds = 3;
     editor.setWorld(world);
     Object ball = editor.scene().objects[1];
-    ball.name = "away", ball.vel = {30, 0, 0};
+    ball.name = "away", ball.pos = {1.5, 1.5, 0}, ball.vel = {30, 0, 0};
     editor.addObject(ball);
     const ObjectId away = editor.selected();
     editor.play();
     for (int i = 0; i < 60; ++i) editor.advance(1.0 / 60);
     CHECK_FALSE(findObject(editor.scene(), away));
+    REQUIRE(editor.scene().objects.size() == 2);
     editor.remove(editor.scene().objects[1].id);
     editor.reset();
     CHECK(editor.scene().objects.size() == 2);

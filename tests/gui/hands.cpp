@@ -82,6 +82,7 @@ void Hands::drag(const std::string& panel, const std::string& label, float from,
 void Hands::key(int key, bool ctrl) {
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = ctrl, io.KeysDown[key] = true;
+    ui.pressed.push_back({key, ctrl, false});
     frame();
     io.KeyCtrl = false, io.KeysDown[key] = false;
     frame();

@@ -182,7 +182,7 @@ TEST_CASE("Constants: gravity, restitution and friction") {
     h.typeInto("Constants", "gravity", "1.62");
     h.drag("Constants", "restitution", 0.6f, 0.0f);
     h.drag("Constants", "friction", 0.2f, 1.0f);
-    h.drag("Constants", "substeps", 0.0f, 0.5f);
+    h.drag("Constants", "substeps", 0.05f, 0.5f);
     CHECK(sceneOf(h).world.gravity == 1.62);
     CHECK(sceneOf(h).world.restitution == 0);
     CHECK(sceneOf(h).world.friction == 2);
