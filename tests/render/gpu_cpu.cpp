@@ -124,7 +124,7 @@ TEST_CASE("the GPU and the CPU agree on every primitive and every operator") {
         CHECK((nothing || e.slopes > static_cast<int>(points.size()) / 4));
         worst = std::max(worst, e.distance), angle = std::max(angle, e.angle);
     }
-    MESSAGE(each * all.size() << " points of " << all.size() << " scenes: worst difference " << worst << " m, worst angle " << angle << " rad");
+    MESSAGE((each * all.size()) << " points of " << all.size() << " scenes: worst difference " << worst << " m, worst angle " << angle << " rad");
 }
 
 TEST_CASE("a field that differs on the CPU is seen") {
