@@ -6,15 +6,11 @@
 namespace mb::cli {
 namespace {
 
-std::function<void()> make(CLI::App& app, Common& common) {
-    const auto path = std::make_shared<std::string>();
-    app.add_option("SCENE", *path, "scene file; without one, an empty scene");
-    return [path, &common] {
-        EditorOptions options;
-        options.path = *path;
-        options.seed = common.seed;
-        if (!path->empty()) options.scene = readSceneFile(*path, {}, common);
-        if (const int code = runEditor(std::move(options)); code != kDone) throw Failure{static_cast<Exit>(code), {}};
+std::function<void()> make(CLI::App& app, Common&) {
+    const auto options = std::make_shared<EditorOptions>();
+    app.add_option("SCENE", options->scene, "scene file; without one, an empty scene");
+    return [options] {
+        if (const int code = runEditor(*options); code != kDone) throw Failure{static_cast<Exit>(code), {}};
     };
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -32,8 +33,8 @@ int run(int argc, char** argv) {
 
     // `marchbox SCENE` is `marchbox edit SCENE`.
     std::vector<std::string> arguments(argv + 1, argv + argc);
-    const bool names_command = !arguments.empty() && (arguments[0].starts_with('-') || app.get_subcommand_no_throw(arguments[0]));
-    if (!names_command) arguments.insert(arguments.begin(), kEdit.name);
+    const auto is_command = [&](const std::string& word) { return std::ranges::any_of(kCommands, [&](auto c) { return word == c->name; }); };
+    if (arguments.empty() || (!arguments[0].starts_with('-') && !is_command(arguments[0]))) arguments.insert(arguments.begin(), kEdit.name);
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its end
     try {
         app.parse(arguments);

@@ -21,6 +21,7 @@ struct Options {
     std::uint64_t every = 1;
     double dt = 0;
     int substeps = 0;
+    bool json = true;
     std::vector<std::string> settings;
 };
 
@@ -103,7 +104,7 @@ void run(const Options& options, const Common& common) {
         {"seconds", world.time_s()}, {"steps", world.steps()}, {"bodies", world.bodies().size()}, {"awake", world.awake()},
         {"step_ms", median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
         {"momentum", {p.x, p.y, p.z}}, {"max_penetration", world.maxPenetration()}, {"removed", world.removed()},
-        {"state", fmt::format("{:016x}", world.stateHash())}};
+        {"state", world.stateText()}};
     writeText("-", json.dump() + '\n');
 }
 
@@ -115,7 +116,7 @@ std::function<void()> make(CLI::App& app, Common& common) {
     app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(CLI::Range(1, 1000));
     app.add_option("--trace", options->trace, "a CSV file with a row for each body at each step");
     app.add_option("--every", options->every, "rows only for every Nth step")->check(CLI::PositiveNumber);
-    app.add_flag("--json", "the answer is JSON with or without this");
+    app.add_flag("--json", options->json, "the answer is JSON with or without this");
     addSettings(app, options->settings);
     return [options, &common] { run(*options, common); };
 }

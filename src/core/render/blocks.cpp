@@ -1,7 +1,8 @@
 #include "core/render/blocks.h"
 
+#include "core/scene/camera.h"
+
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <bit>
 #include <cstddef>
@@ -42,8 +43,9 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
                                  with(leaf.rotation[2], k[2]), {k[3], leaf.object, 0, 0}});
         packed.reach = std::max(packed.reach, static_cast<float>(reachOf(leaf, position)));
     }
-    // A power of two, so that a change of one object's material seldom changes the shader.
-    packed.materials.resize(std::bit_ceil(packed.materials.size()), packMaterial({}));
+    // The array's size is part of the shader: a power of two, so that giving an object another material seldom changes it.
+    constexpr std::size_t kFewest = 16;
+    packed.materials.resize(std::bit_ceil(std::max(packed.materials.size(), kFewest)), packMaterial({}));
     for (const Branch& branch : tree.branches) packed.branches.push_back({branch.blend, 0, 0, 0});
     for (const Light& light : scene.lights)
         packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});
@@ -51,20 +53,14 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
 }
 
 GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size) {
-    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::dvec3 sideways = glm::cross(forward, glm::dvec3{0, 1, 0});
-    // Straight up or down, where no right is to be had from up, x is taken.
-    const glm::dvec3 right = glm::length(sideways) > 1e-12 ? glm::normalize(sideways) : glm::dvec3{1, 0, 0};
-    const glm::dvec3 up = glm::cross(right, forward);
-    const bool parallel = camera.ortho > 0;
-    const double half = parallel ? camera.ortho / 2 : std::tan(glm::radians(camera.fov) / 2);
+    const View view = viewOf(camera);
     const double aspect = static_cast<double>(size.x) / size.y;
     const RenderKnobs& knobs = scene.render;
 
     GpuFrame frame{};
-    frame.right = with(right * half * aspect, parallel);
-    frame.up = with(up * half, 0);
-    frame.forward = with(forward, 2 * half / size.y);
+    frame.right = with(view.right * view.half * aspect, view.parallel);
+    frame.up = with(view.up * view.half, 0);
+    frame.forward = with(view.forward, 2 * view.half / size.y);
     frame.picture = {size.x, size.y, 0, 0};
     frame.reach = {knobs.march_epsilon, knobs.max_distance, knobs.normal_epsilon, 0};
     frame.background = with(scene.world.background, 1);

@@ -8,7 +8,7 @@ namespace mb {
 #define MB_GL11(X)                                                                                                     \
     X(BindTexture) X(BlendFunc) X(Clear) X(ClearColor) X(ColorMask) X(DeleteTextures) X(DepthFunc) X(DepthMask)        \
     X(Disable) X(DrawArrays) X(DrawBuffer) X(Enable) X(Finish) X(GenTextures) X(GetError) X(GetIntegerv) X(GetString)  \
-    X(PixelStorei) X(ReadBuffer) X(ReadPixels) X(TexImage2D) X(TexParameteri) X(TexSubImage2D) X(Viewport)
+    X(PixelStorei) X(ReadBuffer) X(ReadPixels) X(Scissor) X(TexImage2D) X(TexParameteri) X(TexSubImage2D) X(Viewport)
 
 struct Gl11 {
 #define MB_DECLARE(name) decltype(&::gl##name) name = nullptr;

@@ -62,12 +62,12 @@ const Key<Object> kObject[] = {
     {"rot", &Object::rot, "degrees", "R = Rz·Ry·Rx", -kFar, kFar, -180, 180},
     {"scale", &Object::scale, "", "uniform", 1e-6, 1e6, 0.1, 5, false, true},
     {"hidden", &Object::hidden, "", "neither seen nor touched"},
-    {"mass", &Object::mass, "kg", "0: it never moves", 0, kHuge, 0, 100},
-    {"density", &Object::density, "kg/m³", "instead of a mass", 0, kHuge, 0, 10'000},
-    {"vel", &Object::vel, "m/s", "", -1e4, 1e4, -10, 10},
-    {"spin", &Object::spin, "rad/s", "", -1e5, 1e5, -20, 20},
-    {"restitution", &Object::restitution, "", "bounciness; none: the world's", 0, 1, 0, 1},
-    {"friction", &Object::friction, "", "none: the world's", 0, 1e3, 0, 2},
+    {"mass", &Object::mass, "kg", "0: it never moves", 0, kHuge, 0, 100, false, false, true},
+    {"density", &Object::density, "kg/m³", "instead of a mass", 0, kHuge, 0, 10'000, false, false, true},
+    {"vel", &Object::vel, "m/s", "", -1e4, 1e4, -10, 10, false, false, true},
+    {"spin", &Object::spin, "rad/s", "", -1e5, 1e5, -20, 20, false, false, true},
+    {"restitution", &Object::restitution, "", "bounciness; none: the world's", 0, 1, 0, 1, false, false, true},
+    {"friction", &Object::friction, "", "none: the world's", 0, 1e3, 0, 2, false, false, true},
 };
 
 }  // namespace

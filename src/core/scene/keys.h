@@ -19,6 +19,7 @@ template <class Record> struct Key {
     double slider_lo = 0, slider_hi = 0; // the range a slider offers
     bool required = false;               // a record that leaves it out is at fault
     bool logarithmic = false;            // the slider's scale
+    bool body = false;                   // of a body: only an object at the top level takes it
 };
 
 /// The rows of a record: World, Camera, Light, Material, RenderKnobs, PhysicsKnobs or Object. `type`, `material` and an

@@ -1,0 +1,87 @@
+#include "core/sdf/raycast.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mb {
+namespace {
+
+constexpr int kBudget = 4096;         // evaluations
+constexpr double kClose = 1e-5;       // of the distance travelled: nearer, single distances are not trusted
+constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
+constexpr int kNarrowingSteps = 100;
+
+struct Marcher {
+    const Tree& tree;
+    glm::dvec3 origin, direction;
+    int evaluations = 0;
+
+    glm::dvec3 at(double t) const { return origin + t * direction; }
+    double operator()(double t) {
+        ++evaluations;
+        const glm::dvec3 p = at(t);
+        return distance<double>(tree, {p.x, p.y, p.z});
+    }
+};
+
+/// Where the distance crosses zero between `lo`, where it is not negative, and `hi`, where it is: halving, until the
+/// two are neighbours or the distance is exactly 0.
+double narrow(Marcher& march, double side, double lo, double hi) {
+    for (int i = 0; i < kNarrowingSteps; ++i) {
+        const double middle = lo + (hi - lo) / 2;
+        if (middle <= lo || middle >= hi) break;
+        const double f = side * march(middle);
+        if (f == 0) return middle;
+        (f < 0 ? hi : lo) = middle;
+    }
+    return hi;
+}
+
+bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double max_distance) {
+    RayEnd end;
+    const double length = glm::length(direction);
+    if (!finite(origin) || !std::isfinite(length) || length == 0 || !(max_distance >= 0)) return end;
+    if (tree.program.empty()) return end.state = RayState::miss, end.t = max_distance, end.closest = kEmptyDistance, end;
+
+    Marcher march{tree, origin, direction / length};
+    const double reach = glm::length(origin);
+    double side = 1, t = 0, before = 0, f_before = 0;
+    bool proved = true;
+    end.closest = std::numeric_limits<double>::infinity();
+    while (march.evaluations < kBudget) {
+        double f = side * march(t);
+        if (std::isnan(f)) break;
+        if (march.evaluations == 1 && f < 0) side = -1, f = -f;
+        const double noise = kNoise * (reach + t);
+        if (f < -noise) {
+            end.state = RayState::hit;
+            end.t = narrow(march, side, before, t);
+            end.closest = 0;
+            break;
+        }
+        // A step longer than the spheres at its two ends reach leaves a gap that nobody looked into.
+        if (t > before && f_before + std::max(f, 0.0) + noise < t - before) proved = false;
+        if (f <= noise && t > 0) proved = false;
+        if (f < end.closest) end.closest = f, end.t = t;
+        if (t + f >= max_distance) {
+            end.state = proved ? RayState::miss : RayState::undecided;
+            break;
+        }
+        before = t, f_before = std::max(f, 0.0);
+        t += std::max(f, std::max(kClose * t, 4 * kNoise * (reach + 1)));
+    }
+    const glm::dvec3 p = march.at(end.t);
+    end.leaf = nearest<double>(tree, {p.x, p.y, p.z}).leaf;
+    if (end.leaf >= 0) end.index = tree.leaves[static_cast<std::size_t>(end.leaf)].index;
+    end.evaluations = march.evaluations;
+    return end;
+}
+
+}  // namespace mb

@@ -1,0 +1,128 @@
+#pragma once
+// What is being edited, and everything that can be done to it: the scene, its file, the selection, the eye, time. No
+// window, no panels, no OpenGL: a panel draws what it reads here and calls the methods below.
+//
+// Every edit keeps the scene such that it can be saved: a command that would break that changes nothing and says why.
+#include "core/scene/scene.h"
+#include "gui/orbit.h"
+#include "gui/simulation.h"
+
+#include <glm/vec2.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mb {
+
+/// What the last command has to say; an error stays until something succeeds or it is dismissed.
+struct Message {
+    bool error = false;
+    std::string text;  // may have several lines
+};
+
+class Editor {
+public:
+    /// A floor, a light and a ball, with no file.
+    Editor();
+
+    const Scene& scene() const { return scene_; }
+    /// Counts every change of what can be seen, the eye's and the bodies' motion included.
+    std::uint64_t revision() const { return revision_; }
+    /// Edits since the file was read or written. The bodies' own motion and the eye's are no edits.
+    bool unsaved() const { return edits_ != saved_edits_; }
+    const std::filesystem::path& path() const { return path_; }
+    const Message& message() const { return message_; }
+    void say(bool error, std::string text) { message_ = {error, std::move(text)}; }
+
+    // Files (editor_files.cpp). Each says whether it was done; if not, nothing changed and message() has the reason.
+    bool open(const std::filesystem::path& path);
+    bool save();                                     // to path(); needs one
+    bool saveAs(const std::filesystem::path& path);  // ".txt" is added to a name with no extension
+    /// Where the scenes are: the open file's folder, or ./saves if there is none.
+    std::filesystem::path savesFolder() const;
+    /// The names of the *.txt files there, sorted.
+    std::vector<std::string> saves() const;
+
+    // Objects. The type of an object stays what it is; a name in use gets a number behind it.
+    ObjectId selected() const { return selected_; }
+    void select(ObjectId id) { selected_ = id; }
+    /// The selected object's index, if there still is one.
+    std::optional<std::size_t> selection() const { return findObject(scene_, selected_); }
+    /// Adds one like the draft, the last child of `parent` or at the end, and selects it. An operator comes with the
+    /// children it must have, to start from. Null if it was refused.
+    ObjectId addObject(const Object& draft, ObjectId parent = {});
+    ObjectId addObject(const ShapeType& type, ObjectId parent = {});
+    bool remove(ObjectId id);
+    bool removeSelected();
+    /// Removes the top-level object that was added last.
+    bool removeLast();
+    /// Removes every object.
+    void clear();
+    /// Gives the object of that index the draft's values; its type, id and parent stay.
+    bool setObject(std::size_t index, const Object& values);
+
+    // The other records. Setting one is an edit only if it changes something.
+    std::size_t addMaterial(Material draft);
+    void setMaterial(std::size_t index, Material values);
+    std::size_t addLight(Light draft);
+    void setLight(std::size_t index, Light values);
+    void removeLight(std::size_t index);
+    void setWorld(const World& values);
+    void setRender(const RenderKnobs& values);
+    void setPhysics(const PhysicsKnobs& values);
+
+    // The eye.
+    Camera camera() const { return orbit_.camera(); }
+    void turn(double yaw, double pitch) { orbit_.turn(yaw, pitch), ++revision_; }
+    void zoom(double notches) { orbit_.zoom(notches), ++revision_; }
+    void pan(double right, double up) { orbit_.pan(right, up), ++revision_; }
+    void lookThrough(const Camera& camera) { orbit_ = Orbit::around(camera), ++revision_; }
+    /// Makes the eye's place the scene's first camera: an edit. Looking around alone is none.
+    void keepView();
+    /// Back to the scene's first camera.
+    void resetView();
+    /// Selects what is seen at a point of the picture (pixels from its top left corner): the whole object first, the part of
+    /// it if that is selected already. Null where nothing is.
+    ObjectId pick(glm::ivec2 picture, glm::dvec2 point);
+
+    // Time (editor_motion.cpp).
+    const Simulation& simulation() const { return simulation_; }
+    bool playing() const { return simulation_.playing; }
+    void play();
+    void pause() { simulation_.playing = false; }
+    void step();
+    /// Puts the bodies back to where they were before the first step; whatever else was edited since stays.
+    void reset();
+    bool canReset() const { return before_.has_value(); }
+    /// Gives every body a push of its own, and plays.
+    void throwAbout();
+    /// Lets wall time pass.
+    void advance(double seconds);
+
+private:
+    void edited(bool moves_bodies);
+    bool refuse(std::string why);
+    std::string whyInvalid(Object object) const;
+    void insertObject(Object object, int parent);
+    bool readyToMove();
+    void forget(ObjectId id);
+
+    Scene scene_;
+    std::filesystem::path path_;
+    std::uint64_t revision_ = 1, edits_ = 0, saved_edits_ = 0;
+    Message message_;
+    ObjectId selected_;
+    Orbit orbit_;
+    Simulation simulation_;
+    std::optional<std::vector<Object>> before_;  // the objects as they were before the first step
+};
+
+/// A name near `wanted` that no record of these has, but for the one at `self`. Nothing stays nothing.
+template <class Record> std::string freeName(const std::vector<Record>& records, const std::string& wanted, std::size_t self);
+
+/// The top-level object above the one of that index, itself included.
+std::size_t topLevel(const Scene& scene, std::size_t index);
+
+}  // namespace mb

@@ -1,0 +1,154 @@
+#include "gui/panels.h"
+
+#include "gui/widgets.h"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace mb {
+namespace {
+
+void askOpen(Ui& ui) { ui.files = ui.editor.saves(), ui.show("Open"); }
+void askSaveAs(Ui& ui) { ui.file_name = ui.editor.path().stem().string(), ui.show("Save as"); }
+void save(Ui& ui) { ui.editor.path().empty() ? askSaveAs(ui) : static_cast<void>(ui.editor.save()); }
+void exit(Ui& ui) { ui.unlessUnsaved([&ui] { ui.quit = true; }); }
+void playOrPause(Ui& ui) { ui.editor.playing() ? ui.editor.pause() : ui.editor.play(); }
+
+bool hasSelection(const Ui& ui) { return ui.editor.selection().has_value(); }
+bool hasObjects(const Ui& ui) { return !ui.editor.scene().objects.empty(); }
+bool canReset(const Ui& ui) { return ui.editor.canReset(); }
+
+const Entry kEntries[] = {
+    {.menu = "File", .name = "Open", .shortcut = {GLFW_KEY_O, true, "Ctrl+O"}, .tip = "a scene from the list of the saves",
+     .draw = drawOpen, .run = askOpen, .width = 380},
+    {.menu = "File", .name = "Save", .shortcut = {GLFW_KEY_S, true, "Ctrl+S"}, .tip = "to the scene's file", .run = save},
+    {.menu = "File", .name = "Save as", .tip = "to a file of another name", .draw = drawSaveAs, .run = askSaveAs, .width = 380},
+    {.menu = "File", .name = "Exit", .shortcut = {GLFW_KEY_ESCAPE, false, "Esc"}, .tip = "asks before it drops unsaved work", .run = exit},
+
+    {.menu = "Edit", .name = "Objects", .tip = "the tree of all objects", .draw = drawObjects, .place = Place::column_top, .at_start = true},
+    {.menu = "Edit", .name = "Attributes", .tip = "of the selected object", .draw = drawAttributes, .place = Place::column_bottom,
+     .at_start = true},
+    {.menu = "Edit", .name = "Add object", .shortcut = {GLFW_KEY_INSERT, false, "Insert"}, .tip = "of any type", .draw = drawAddObject},
+    {.menu = "Edit", .name = "Delete selected", .shortcut = {GLFW_KEY_DELETE, false, "Delete"}, .tip = "with its children",
+     .run = [](Ui& ui) { ui.editor.removeSelected(); }, .enabled = hasSelection},
+    {.menu = "Edit", .name = "Remove last", .tip = "the object added last", .run = [](Ui& ui) { ui.editor.removeLast(); },
+     .enabled = hasObjects},
+    {.menu = "Edit", .name = "Clear", .tip = "removes every object", .run = [](Ui& ui) { ui.editor.clear(); }, .enabled = hasObjects},
+    {.menu = "Edit", .name = "Materials", .tip = "what surfaces look like", .draw = drawMaterials},
+    {.menu = "Edit", .name = "Lights", .tip = "where the light comes from", .draw = drawLights},
+    {.menu = "Edit", .name = "Camera", .tip = "where the scene is seen from", .draw = drawCamera},
+
+    {.menu = "Motion", .name = "Play or pause", .shortcut = {GLFW_KEY_SPACE, false, "Space"}, .tip = "lets time pass, or stops it",
+     .run = playOrPause},
+    {.menu = "Motion", .name = "Step", .shortcut = {GLFW_KEY_PERIOD, false, ".", true}, .tip = "one step of the physics",
+     .run = [](Ui& ui) { ui.editor.step(); }},
+    {.menu = "Motion", .name = "Reset", .shortcut = {GLFW_KEY_R, false, "R"}, .tip = "the bodies go back to where they started",
+     .run = [](Ui& ui) { ui.editor.reset(); }, .enabled = canReset},
+    {.menu = "Motion", .name = "Throw about", .shortcut = {GLFW_KEY_J, false, "J"}, .tip = "gives every body a push",
+     .run = [](Ui& ui) { ui.editor.throwAbout(); }},
+
+    {.menu = "Settings", .name = "Controls", .shortcut = {GLFW_KEY_F1, false, "F1"}, .tip = "what the mouse and the keys do",
+     .draw = drawControls, .width = 430},
+    {.menu = "Settings", .name = "Debug", .tip = "the live state of every body", .draw = drawDebug, .width = 560, .height = 320},
+    {.menu = "Settings", .name = "Constants", .tip = "gravity, restitution, friction, and the steps of time", .draw = drawConstants},
+    {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
+};
+
+constexpr MouseControl kMouse[] = {
+    {"Left drag", "turns the view around the scene"},
+    {"Middle drag", "moves the view sideways"},
+    {"Wheel", "comes nearer or goes further"},
+    {"Right click on an object", "opens its attributes; once more: those of the part under the mouse"},
+    {"Ctrl+click on a slider", "types a number into it"},
+};
+
+/// Where a docked panel goes: the column on the right, shared by those of its panels that are open.
+void placeDocked(const Ui& ui, const Entry& entry) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float top = ui.picture_corner.y, height = ui.picture_size.y, left = ui.picture_corner.x + ui.picture_size.x;
+    bool above = false, below = false;
+    for (std::size_t i = 0; i < entries().size(); ++i) {
+        above |= ui.open[i] && entries()[i].place == Place::column_top;
+        below |= ui.open[i] && entries()[i].place == Place::column_bottom;
+    }
+    const float split = above && below ? 0.40f : 1.0f;
+    const bool is_top = entry.place == Place::column_top;
+    const float y = is_top || !above ? top : top + height * split, h = is_top ? height * split : height * (above ? 1 - split : 1.0f);
+    ImGui::SetNextWindowPos({left, y});
+    ImGui::SetNextWindowSize({std::max(screen.x - left, 1.0f), std::max(h, 1.0f)});
+}
+
+void placeFloating(const Entry& entry, int order) {
+    const float scale = ImGui::GetFontSize() / 15, step = ImGui::GetFrameHeight();
+    ImGui::SetNextWindowPos({16 + step * static_cast<float>(order % 8), 2 * step + step * static_cast<float>(order % 8)}, ImGuiCond_FirstUseEver);
+    if (entry.height > 0) ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
+    const float most = std::max(ImGui::GetIO().DisplaySize.y - 4 * step, 100.0f);
+    if (entry.height == 0) ImGui::SetNextWindowSizeConstraints({entry.width * scale, 0}, {entry.width * scale * 2, most});
+}
+
+void drawPanel(Ui& ui, const Entry& entry, std::size_t i) {
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoSavedSettings;
+    if (entry.place == Place::floating) {
+        placeFloating(entry, static_cast<int>(i));
+        if (entry.height == 0) flags |= ImGuiWindowFlags_AlwaysAutoResize;
+    } else {
+        placeDocked(ui, entry);
+        flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
+    }
+    bool stays = true;
+    ui::seen_panel = entry.name;
+    if (ImGui::Begin(entry.name, &stays, flags)) entry.draw(ui);
+    ImGui::End();
+    if (!stays) ui.open[i] = false;
+}
+
+/// The picture gets what the bars and the column leave.
+void layOut(Ui& ui) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float bar = ImGui::GetFrameHeight(), scale = ImGui::GetFontSize() / 15;
+    bool column = false;
+    for (std::size_t i = 0; i < entries().size(); ++i) column |= ui.open[i] && entries()[i].place != Place::floating;
+    const float width = column ? std::min(340 * scale, screen.x / 2) : 0;
+    ui.picture_corner = {0, bar};
+    ui.picture_size = {std::max(screen.x - width, 0.0f), std::max(screen.y - 2 * bar, 0.0f)};
+}
+
+}  // namespace
+
+std::span<const Entry> entries() { return kEntries; }
+std::span<const MouseControl> mouseControls() { return kMouse; }
+
+Ui::Ui(Editor& edited) : editor(edited) {
+    for (const Entry& entry : entries()) open.push_back(entry.at_start);
+    draft.type = &primitives().front(), draft.numbers = initialNumbers(*draft.type), draft.pos = {0, 1, 0};
+}
+
+bool Ui::isOpen(const char* panel) const {
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (std::strcmp(entries()[i].name, panel) == 0) return open[i];
+    return false;
+}
+
+void Ui::show(const char* panel, bool opened) {
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (std::strcmp(entries()[i].name, panel) == 0) open[i] = opened;
+}
+
+void Ui::unlessUnsaved(std::function<void()> what) {
+    if (!editor.unsaved()) return what();
+    if (!after) after = std::move(what);
+}
+
+void drawInterface(Ui& ui) {
+    drawMenuBar(ui);
+    layOut(ui);
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
+    drawStatusBar(ui);
+    drawMessage(ui);
+    drawQuestion(ui);
+}
+
+}  // namespace mb

@@ -1,0 +1,113 @@
+#pragma once
+// The interface: one table of panels and commands, which the menus, the windows, the keys and the list of controls walk.
+// Everything here needs Dear ImGui and no window.
+#include "core/effects/plan.h"
+#include "gui/editor.h"
+
+#include <imgui.h>
+
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mb {
+
+/// What the viewport has to say in the status bar and to the Picture panel.
+struct PictureState {
+    glm::ivec2 drawn{0}, full{0};  // pixels of the picture shown, and of the place it is shown in
+    double ms = 0;                 // of the last picture drawn
+    bool refining = false;
+    std::string why;               // it cannot be drawn; the last one that could still shows
+    std::string renderer;          // GL_RENDERER
+};
+
+struct Ui {
+    explicit Ui(Editor& edited);
+
+    Editor& editor;
+    std::vector<bool> open;            // one a row of entries()
+    bool quit = false;                 // the program is to end
+    // Where the picture is: what the docked panels and the bars leave of the window; in ImGui's units, from the top left.
+    ImVec2 picture_corner{0, 0}, picture_size{0, 0};
+    PictureState picture;
+    double frames_per_second = 0;      // 0: nothing moves, so nothing is redrawn
+
+    // What the panels remember from frame to frame.
+    Object draft;
+    bool draft_below = false;          // the draft goes under the selected operator
+    Material new_material{.name = "material"};
+    Light new_light{.name = "light", .pos = {0, 5, 0}};
+    int shown_material = 0, shown_light = 0;
+    std::vector<std::string> files;
+    std::string file, file_name;
+    std::set<std::uint32_t> folded;    // operators whose children the tree hides
+    bool attributes_to_top = false;
+    std::function<void()> after;       // what waits for an answer about unsaved work
+    std::string save_name;             // typed into that question
+    std::uint64_t planned_revision = 0;
+    Plan plan;
+    double message_age = 0;
+    std::string message_shown;
+
+    bool isOpen(const char* panel) const;
+    void show(const char* panel, bool open = true);
+    /// Calls `what` at once if nothing is unsaved; else asks first.
+    void unlessUnsaved(std::function<void()> what);
+};
+
+/// A key with what is held down beside it. `key` is GLFW's number for it, 0 for none.
+struct Shortcut {
+    int key = 0;
+    bool ctrl = false;
+    const char* shown = "";
+    bool repeats = false;  // while it is held
+};
+
+enum class Place { floating, column_top, column_bottom };
+
+/// One row of the interface: a panel if it draws, else a command that runs.
+struct Entry {
+    const char *menu, *name;
+    Shortcut shortcut = {};
+    const char* tip = "";
+    void (*draw)(Ui&) = nullptr;
+    void (*run)(Ui&) = nullptr;
+    bool (*enabled)(const Ui&) = nullptr;
+    Place place = Place::floating;
+    bool at_start = false;
+    float width = 360, height = 0;  // of a floating panel at first; height 0: as high as its contents
+};
+std::span<const Entry> entries();
+/// What the mouse does, one line each, for the list of controls.
+struct MouseControl {
+    const char *what, *does;
+};
+std::span<const MouseControl> mouseControls();
+
+/// Draws the whole interface: between ImGui's NewFrame and Render, once a frame.
+void drawInterface(Ui& ui);
+/// Hands the keys and the mouse to the editor where Dear ImGui does not want them (input.cpp).
+void handleInput(Ui& ui);
+
+// The panels, one file each or a few.
+void drawObjects(Ui& ui);
+void drawAttributes(Ui& ui);
+void drawAddObject(Ui& ui);
+void drawMaterials(Ui& ui);
+void drawLights(Ui& ui);
+void drawCamera(Ui& ui);
+void drawOpen(Ui& ui);
+void drawSaveAs(Ui& ui);
+void drawControls(Ui& ui);
+void drawDebug(Ui& ui);
+void drawConstants(Ui& ui);
+void drawPicture(Ui& ui);
+// What surrounds them (bars.cpp, question.cpp).
+void drawMenuBar(Ui& ui);
+void drawStatusBar(Ui& ui);
+void drawMessage(Ui& ui);
+void drawQuestion(Ui& ui);
+
+}  // namespace mb

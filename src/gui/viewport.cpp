@@ -1,0 +1,154 @@
+#include "gui/viewport.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mb {
+namespace {
+
+constexpr int kSmallestSide = 48;  // pixels of a preview
+constexpr int kWidestStep = 8;     // a preview has at least an eighth of the full width
+
+double nowMs() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The size of a picture of the same shape with about that many pixels, in steps so that it does not change at every frame.
+glm::ivec2 sizeWithin(glm::ivec2 full, double pixels) {
+    const double scale = std::sqrt(pixels / (static_cast<double>(full.x) * full.y));
+    constexpr double kSteps[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 1.0 / kWidestStep};
+    double chosen = kSteps[std::size(kSteps) - 1];
+    for (const double step : kSteps)
+        if (step <= scale) {
+            chosen = step;
+            break;
+        }
+    const auto side = [&](int whole) { return std::clamp(static_cast<int>(whole * chosen), std::min(whole, kSmallestSide), whole); };
+    return {side(full.x), side(full.y)};
+}
+
+}  // namespace
+
+Viewport::Viewport() : renderer_(std::make_unique<Renderer>()) {}
+Viewport::~Viewport() = default;
+
+/// What is shown is kept in a picture of the window's size, so that a frame where nothing changed only copies it.
+void Viewport::makeKept(glm::ivec2 window) {
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    kept_texture_ = OwnedTexture(name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, window.x, window.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glGenFramebuffers(1, &name);
+    kept_ = OwnedFramebuffer(name);
+    glBindFramebuffer(GL_FRAMEBUFFER, kept_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, kept_texture_, 0);
+    gl.ClearColor(0.1f, 0.1f, 0.12f, 1);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    window_ = window;
+}
+
+void Viewport::keepShown(glm::ivec2 corner, glm::ivec2 size) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_);
+    const glm::ivec2 end = corner + size;
+    glBlitFramebuffer(corner.x, corner.y, end.x, end.y, corner.x, corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Viewport::showKept() {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, window_.x, window_.y, 0, 0, window_.x, window_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/// Draws into the renderer's picture and measures; a frame that compiled a shader says nothing of the next one's time.
+bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+    const int compiled = renderer_->compiled();
+    const double start = nowMs();
+    why_ = renderer_->draw(scene, camera, size);
+    if (!why_.empty()) return false;
+    gl.Finish();
+    ms_ = nowMs() - start;
+    return renderer_->compiled() == compiled;
+}
+
+void Viewport::drawPreview(const Scene& scene, const Camera& camera) {
+    const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
+    const bool typical = draw(scene, camera, size);
+    if (!why_.empty()) return;
+    const double ns = ms_ * 1e6 / (static_cast<double>(size.x) * size.y);
+    if (typical) ns_per_pixel_ = std::clamp(0.5 * (ns_per_pixel_ + ns), 1.0, 1e7);
+    gl.BindTexture(GL_TEXTURE_2D, renderer_->picture().texture(0));
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    renderer_->present(corner_, size_);
+    keepShown(corner_, size_);
+    drawn_ = size, next_row_ = 0, refined_ = false, shown_ms_ = ms_, refining_ms_ = 0;
+    // With everything in it there is nothing to refine.
+    if (size == size_ && scene.render.samples == 1) refined_ = true;
+}
+
+/// Draws the next rows of the full picture, as many as a frame's time allows, and shows them over the preview.
+void Viewport::drawTile(const Scene& scene, const Camera& camera) {
+    const double pixels = kFrameMs * 1e6 / (ns_per_pixel_ * scene.render.samples);
+    const int rows = std::clamp(static_cast<int>(pixels / size_.x), 1, size_.y - next_row_);
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(0, next_row_, size_.x, rows);
+    draw(scene, camera, size_);
+    if (why_.empty()) {
+        gl.Scissor(corner_.x, corner_.y + next_row_, size_.x, rows);
+        renderer_->present(corner_, size_);
+    }
+    gl.Disable(GL_SCISSOR_TEST);
+    if (!why_.empty()) {
+        refined_ = true;
+        return;
+    }
+    keepShown(corner_ + glm::ivec2{0, next_row_}, {size_.x, rows});
+    // The rows differ in what they cost: the estimate follows quickly.
+    const double ns = ms_ * 1e6 / (static_cast<double>(size_.x) * rows * scene.render.samples);
+    ns_per_pixel_ = std::clamp(0.5 * (ns_per_pixel_ + ns), 1.0, 1e7);
+    next_row_ += rows, refining_ms_ += ms_;
+    if (next_row_ >= size_.y) refined_ = true, drawn_ = size_, shown_ms_ = refining_ms_;
+}
+
+void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state) {
+    state.renderer = renderer_->rendererName();
+    busy_ = false;
+    if (window.x < 1 || window.y < 1) return;
+    const bool moved = window != window_ || corner != corner_ || size != size_;
+    if (window != window_) makeKept(window);
+    corner_ = corner, size_ = size;
+    gl.Viewport(0, 0, window.x, window.y);
+    if (size.x < 1 || size.y < 1) return showKept();
+
+    const double now = nowMs();
+    if (moved || editor.revision() != drawn_revision_) {
+        drawn_revision_ = editor.revision(), changed_at_ = now;
+        showKept();
+        if (editor.scene().render.samples == 1) {
+            drawPreview(editor.scene(), editor.camera());
+        } else {
+            Scene quick = editor.scene();
+            quick.render.samples = 1;
+            drawPreview(quick, editor.camera());
+            refined_ = false;
+        }
+        if (!why_.empty()) refined_ = true;
+    } else {
+        showKept();
+        if (!refined_ && now - changed_at_ > kStillMs) drawTile(editor.scene(), editor.camera());
+    }
+    if (!why_.empty() && moved) renderer_->present(corner_, size_), keepShown(corner_, size_);  // the last one that could be drawn
+    else if (!why_.empty()) showKept();
+    busy_ = !refined_;
+    state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
+    state.refining = busy_ && next_row_ > 0;
+}
+
+}  // namespace mb

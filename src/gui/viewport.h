@@ -1,0 +1,49 @@
+#pragma once
+// The picture behind the panels. While something changes it is drawn as large as a frame's time allows; once nothing does,
+// it is drawn again at full size, a few rows of tiles a frame, and then not at all.
+#include "core/render/renderer.h"
+#include "gui/editor.h"
+#include "gui/panels.h"
+
+#include <memory>
+
+namespace mb {
+
+class Viewport {
+public:
+    static constexpr double kFrameMs = 45;   // what a frame's drawing may take, so that the panels stay alive
+    static constexpr double kStillMs = 150;  // without a change for so long, the picture is refined
+
+    /// Needs the window's context current.
+    Viewport();
+    ~Viewport();
+
+    /// Draws what there is to draw of the editor's scene and shows it on framebuffer 0, whose size in pixels is `window`,
+    /// in the rectangle of that corner (from the bottom left) and size. Any size will do, none included.
+    void show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state);
+    /// Whether the next call would draw anything new.
+    bool busy() const { return busy_; }
+
+private:
+    void drawPreview(const Scene& scene, const Camera& camera);
+    void drawTile(const Scene& scene, const Camera& camera);
+    bool draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
+    void keepShown(glm::ivec2 corner, glm::ivec2 size);
+    void showKept();
+    void makeKept(glm::ivec2 window);
+
+    std::unique_ptr<Renderer> renderer_;
+    OwnedTexture kept_texture_;        // what is on the screen, without the panels
+    OwnedFramebuffer kept_;
+    glm::ivec2 window_{0}, corner_{0}, size_{0};
+    std::uint64_t drawn_revision_ = 0;
+    double changed_at_ = 0;            // ms
+    double ns_per_pixel_ = 2000;       // of the last pictures
+    glm::ivec2 drawn_{0};              // the size of the preview
+    int next_row_ = 0;                 // of the refinement, in pixels from the bottom
+    bool busy_ = true, refined_ = false;
+    double ms_ = 0, refining_ms_ = 0, shown_ms_ = 0;  // of the last draw, of the rows so far, of the picture shown
+    std::string why_;
+};
+
+}  // namespace mb

@@ -1,0 +1,86 @@
+#pragma once
+// One part of a step: every ball along its path, from impact to impact in the order of time.
+//
+// Between impacts a ball's acceleration is constant, so its path is exact for any length of step; an impact is resolved
+// at the moment it happens. Each ball keeps its own clock inside the part and is brought forward when something happens
+// to it (event-driven dynamics; Lubachevsky, "How to Simulate Billiards and Similar Systems", 1991).
+#include "physics/approach.h"
+#include "physics/broadphase.h"
+#include "physics/contact.h"
+
+#include <queue>
+
+namespace mb {
+
+/// How deep a resting ball may sink before it counts as moving into what it rests on, m.
+inline double restDepth(double radius) { return std::min(1e-4, 1e-3 * radius); }
+
+/// The static points near a ball, remembered for the place they were last asked for.
+struct NearStatics {
+    glm::dvec3 at{NAN};
+    std::vector<Touch> touches;
+    double free = 0;          // StaticField::touches' answer
+
+    void moveTo(const StaticField& field, glm::dvec3 position, double radius);
+};
+
+struct FlightRules {
+    const World& world;
+    double duration = 0;      // s, of the part
+    double bounce = 0;        // m/s: a slower approach has no restitution
+};
+
+class Flight {
+public:
+    /// `accelerations` (m/s², rad/s²) hold from the start of the part to the ball's first impact.
+    Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
+           std::span<const Motion> accelerations);
+    /// Moves every ball to the end of the part.
+    void run();
+
+    int impacts = 0;
+    int held = 0;             // balls that met more than fits into one part: they wait for the next where they are
+
+private:
+    struct Path {
+        double time = 0;      // that the body's position, velocity and spin are of
+        glm::dvec3 acceleration{0}, turning{0};
+        std::uint32_t version = 0;
+        int events = 0;
+        bool held = false;
+    };
+    struct Event {
+        double time;
+        int a, b;
+        std::uint32_t version_a, version_b;
+        /// The queue gives the greatest first: the earliest event, then the lowest numbers.
+        friend bool operator<(const Event& x, const Event& y) {
+            return x.time != y.time ? x.time > y.time : x.a != y.a ? x.a > y.a : x.b > y.b;
+        }
+    };
+
+    glm::dvec3 positionAt(std::size_t i, double t) const;
+    glm::dvec3 velocityAt(std::size_t i, double t) const;
+    void advance(std::size_t i, double t);
+    void expectStatic(std::size_t i);
+    void expectPair(std::size_t i, std::size_t j);
+    void expectAll(std::size_t i);
+    void growReach(std::size_t i);
+    void meet(const Event& event);
+    std::vector<Contact> contactsOf(int a, int b);
+    bool bounceApart(std::vector<Contact>& contacts, int a, int b);
+    void support(const std::vector<Contact>& contacts);
+    void hold(std::size_t i);
+
+    std::vector<Body>& bodies_;
+    std::vector<NearStatics>& near_;
+    const StaticField& field_;
+    FlightRules rules_;
+    std::vector<Path> paths_;
+    std::vector<Motion> motion_;                 // scratch of the solver
+    std::vector<Reach> reach_;                   // where each may get, from the start of the part
+    std::vector<std::vector<int>> neighbours_;
+    std::priority_queue<Event> events_;
+};
+
+}  // namespace mb

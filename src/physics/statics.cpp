@@ -1,0 +1,235 @@
+#include "physics/statics.h"
+
+#include "physics/closest.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace mb {
+namespace {
+
+constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
+
+double distanceTo(const Box& box, glm::dvec3 p) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double d = std::max({box.lo[k] - p[i], p[i] - box.hi[k], 0.0});
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+/// 1 for a leaf that adds, −1 for one that is taken away: walks the program with the leaves each value is made of.
+std::vector<signed char> sidesOf(const Tree& tree) {
+    struct Range { std::size_t begin, end; };
+    std::vector<signed char> side(tree.leaves.size(), 0);
+    std::vector<Range> stack;
+    for (const Instruction& step : tree.program) {
+        if (step.kind == Instruction::Kind::leaf) {
+            side[step.index] = 1;
+            stack.push_back({step.index, step.index + 1});
+            continue;
+        }
+        const Range second = stack.back();
+        stack.pop_back();
+        if (step.kind == Instruction::Kind::fold && tree.branches[step.index].op->first_only)
+            for (std::size_t i = second.begin; i < second.end; ++i) side[i] = static_cast<signed char>(-side[i]);
+        stack.back().end = second.end;
+    }
+    return side;
+}
+
+bool evaluated(const Scene& scene, std::size_t object) {
+    for (std::size_t i = object, end = subtreeEnd(scene, object); i < end; ++i)
+        if (const ShapeType& type = *scene.objects[i].type; type.isOperator() && !asOperator(type).evaluated()) return false;
+    return true;
+}
+
+}  // namespace
+
+StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes) {
+    for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) {
+        if (scene.objects[i].hidden || !wanted(i)) continue;
+        if (!evaluated(scene, i)) {
+            io_notes.push_back(fmt::format("{}: no ball meets it, since its distance cannot be evaluated yet", label(scene, i)));
+            continue;
+        }
+        Solid solid{makeTree(scene, [i](std::size_t k) { return k == i; }), {}, {}, false};
+        if (solid.tree.program.empty()) continue;
+        solid.box = bounds(solid.tree);
+        solid.side = sidesOf(solid.tree);
+        for (const Branch& b : solid.tree.branches) solid.blended = solid.blended || b.blend > 0;
+        solids_.push_back(std::move(solid));
+    }
+}
+
+/// The search of one solid's points around one ball.
+struct StaticField::Search {
+    const Solid& solid;
+    glm::dvec3 c;
+    double radius, margin;
+    std::vector<Touch>& found;
+    std::uint64_t& evaluations;
+
+    double field(glm::dvec3 p) const { return ++evaluations, distance<double>(solid.tree, {p.x, p.y, p.z}); }
+
+    /// A shape less itself has a surface of no thickness. Behind a face there is solid; behind a sharp corner, where the
+    /// line from the ball may pass it by, there is some towards the leaf's middle.
+    bool solidBehind(glm::dvec3 point, glm::dvec3 normal, std::span<const std::size_t> leaves) const {
+        const double reach = 1e-4 * radius;
+        if (field(point - reach * normal) < 0) return true;
+        if (leaves.empty()) return false;
+        const glm::dvec3 inwards = solid.tree.leaves[leaves[0]].position - point;
+        const double l = glm::length(inwards);
+        return l > 0 && field(point + (reach / l) * inwards) < 0;
+    }
+
+    /// Adds the local minimum of the distance on these leaves (or on the whole tree, where there are none) if it lies on
+    /// the solid's surface and faces the ball.
+    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr, bool anywhere = false) const {
+        std::array<Surface, 3> surfaces{};
+        for (std::size_t i = 0; i < leaves.size(); ++i) surfaces[i].leaf = &solid.tree.leaves[leaves[i]];
+        if (leaves.empty()) surfaces[0].tree = &solid.tree;
+        const std::span<const Surface> all(surfaces.data(), std::max<std::size_t>(leaves.size(), 1));
+        const auto closest = anywhere ? pointOn(all, c, start, radius, evaluations) : closestPoint(all, c, start, radius, evaluations, parallel);
+        if (!closest) return false;
+
+        const glm::dvec3 away = c - closest->point;
+        const double d = glm::length(away);
+        if (!(d > 1e-9 * radius) || d > radius + margin) return false;
+        const double on = 1e-8 * (1 + radius + glm::length(c));
+        if (std::fabs(field(closest->point)) > on) return false;
+        // On an edge each surface must push outwards; on a face there must be a solid behind the point.
+        if (leaves.size() > 1) {
+            for (std::size_t i = 0; i < leaves.size(); ++i)
+                if (closest->shares[i] * solid.side[leaves[i]] < -1e-9 * d) return false;
+        } else if (!solidBehind(closest->point, away / d, leaves)) {
+            return false;
+        }
+        found.push_back({closest->point, away / d, d - radius});
+        return true;
+    }
+
+    /// The leaves whose surface may be within reach, nearest first.
+    std::vector<std::size_t> nearLeaves() const {
+        std::vector<std::pair<double, std::size_t>> near;
+        for (std::size_t i = 0; i < solid.tree.leaves.size(); ++i) {
+            if (solid.side[i] == 0) continue;
+            const Leaf& leaf = solid.tree.leaves[i];
+            const glm::dvec3 q = (c - leaf.position) * leaf.rotation;
+            const double f = std::fabs(leaf.primitive->distance<double>({q.x, q.y, q.z}, leaf.numbers));
+            if (f <= radius + margin) near.push_back({f, i});
+        }
+        ++evaluations;
+        std::sort(near.begin(), near.end());  // no two are equal: the indices differ
+        if (near.size() > kNearLeaves) near.resize(kNearLeaves);
+        std::vector<std::size_t> leaves;
+        for (const auto& [f, i] : near) leaves.push_back(i);
+        return leaves;
+    }
+
+    /// The nearest point of two surfaces' common curve, and three more around the ball: over a round hole it rests on the
+    /// rim on all sides, though one is nearest. (Elsewhere these lie below the first one's tangent plane and are dropped.)
+    void addEdge(std::size_t a, std::size_t b) const {
+        const std::array edge{a, b};
+        const glm::dvec3 axis = slope(solid.tree.leaves[a], c).gradient;
+        glm::dvec3 side{0}, down{0};
+        bool parallel = false;
+        if (add(edge, c, &parallel)) {
+            const glm::dvec3 to = found.back().point - c;
+            down = glm::dot(to, axis) * axis, side = to - down;
+        } else if (parallel) {
+            // Straight above its middle the surfaces' gradients are parallel, and no side is the nearest.
+            side = 0.5 * radius * glm::cross(axis, std::fabs(axis.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0});
+            add(edge, c + side, nullptr, true);
+        }
+        if (!(glm::dot(side, side) > 1e-12 * radius * radius)) return;
+        const glm::dvec3 across = glm::cross(axis, side);
+        for (const glm::dvec3& way : {across, -side, -across}) add(edge, c + down + way, nullptr, true);
+    }
+
+    void facesEdgesCorners() const {
+        const std::vector<std::size_t> near = nearLeaves();
+        for (std::size_t a = 0; a < near.size(); ++a) {
+            add(std::array{near[a]}, c);
+            for (std::size_t b = a + 1; b < near.size(); ++b) {
+                addEdge(near[a], near[b]);
+                for (std::size_t d = b + 1; d < near.size(); ++d) add(std::array{near[a], near[b], near[d]}, c);
+            }
+        }
+        if (solid.blended) add({}, c);
+    }
+
+    /// From a point pushed off the ones found: the leaf that is nearest there, and its own nearest point to the ball.
+    bool probe(glm::dvec3 direction) const {
+        const glm::dvec3 from = c + (0.5 * radius) * direction;
+        const Slope s = slope(solid.tree, from);
+        const int leaf = nearest<double>(solid.tree, {from.x, from.y, from.z}).leaf;
+        evaluations += 2;
+        if (s.distance <= 0 || leaf < 0) return false;
+        const glm::dvec3 start = from - s.distance * s.gradient;
+        const bool smooth = solid.blended && add({}, start);
+        return add(std::array{static_cast<std::size_t>(leaf)}, start) || smooth;
+    }
+
+    /// The other walls of a corner that one leaf makes alone, as a box taken away does. Where nothing else is near, half
+    /// a radius away from the first point is half a radius further from the solid, and there is nothing to look for.
+    void otherWalls(double f) const {
+        if (found.empty()) return;
+        const glm::dvec3 n = found.front().normal;
+        if (field(c + (0.5 * radius) * n) >= f + 0.5 * radius * (1 - 1e-9)) return;
+        const std::size_t before = found.size();
+        probe(n);
+        if (found.size() == before) return;
+        const glm::dvec3 m = found.back().normal, sum = n + m, cross = glm::cross(n, m);
+        if (const double l = glm::length(sum); l > 1e-3) probe(sum / l);
+        if (const double l = glm::length(cross); l > 1e-3) probe(cross / l), probe(-cross / l);
+    }
+};
+
+double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out) const {
+    out.clear();
+    double free = INFINITY;
+    std::vector<Touch> found;
+    for (const Solid& solid : solids_) {
+        const double outside = distanceTo(solid.box, centre) - radius;
+        if (outside > margin) {
+            free = std::min(free, outside);
+            continue;
+        }
+        found.clear();
+        const Search search{solid, centre, radius, margin, found, evaluations_};
+        const double f = search.field(centre);
+        if (f - radius > margin) {
+            free = std::min(free, f - radius);
+            continue;
+        }
+        if (f <= 0) {
+            // The centre is inside: out along the gradient, and upwards where it is 0.
+            const glm::dvec3 g = slope(solid.tree, centre).gradient;
+            const double l = glm::length(g);
+            const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};
+            found.push_back({centre - f * n, n, f - radius});
+        } else {
+            search.facesEdgesCorners();
+            search.otherWalls(f);
+            if (found.empty()) free = std::min(free, std::max(f - radius, margin));
+        }
+        out.insert(out.end(), found.begin(), found.end());
+    }
+
+    // Keep what no nearer point's tangent plane hides.
+    std::stable_sort(out.begin(), out.end(), [](const Touch& a, const Touch& b) { return a.gap < b.gap; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        bool hidden = false;
+        for (std::size_t k = 0; k < kept && !hidden; ++k)
+            hidden = glm::dot(out[i].point - out[k].point, out[k].normal) <= 1e-7 * radius;
+        if (!hidden) out[kept++] = out[i];
+    }
+    out.resize(kept);
+    return out.empty() ? free : std::min(free, out.front().gap);
+}
+
+}  // namespace mb

@@ -1,0 +1,181 @@
+#include "physics/world.h"
+
+#include "physics/hash.h"
+#include "physics/random.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace mb {
+namespace {
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Shortens a vector to at most `most`; says whether it was longer.
+bool shorten(glm::dvec3& io_v, double most) {
+    const double largest = std::max({std::fabs(io_v.x), std::fabs(io_v.y), std::fabs(io_v.z)});
+    if (largest <= 0.5 * most) return false;
+    const glm::dvec3 unit = io_v / largest;  // whose length cannot overflow
+    const double length = glm::length(unit);
+    if (largest <= most / length) return false;
+    io_v = unit * (most / length);
+    return true;
+}
+
+}  // namespace
+
+void PhysicsWorld::step() {
+    for (int i = 0; i < knobs_.substeps; ++i) part(knobs_.dt / knobs_.substeps);
+    ++steps_;
+}
+
+/// A contact that gravity alone closes again within two parts is a resting one.
+double PhysicsWorld::bounceSpeed(double h) const { return 2 * std::fabs(world_.gravity) * h; }
+
+void PhysicsWorld::part(double h) {
+    tame();
+    std::vector<Contact> contacts = touching();
+    wakeAndSleep(contacts);
+    pushApart(contacts, h);
+
+    // Fast approaches are impacts: the flight's business. Sleepers need nothing.
+    std::erase_if(contacts, [&](const Contact& c) {
+        const Body& a = bodies_[static_cast<std::size_t>(c.a)];
+        const Motion before{a.velocity, a.spin};
+        if (!a.awake) return true;
+        Motion other;
+        if (c.b != kStatic) other = {bodies_[static_cast<std::size_t>(c.b)].velocity, bodies_[static_cast<std::size_t>(c.b)].spin};
+        return glm::dot(relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c), c.normal) < -bounceSpeed(h);
+    });
+    stopSlowApproaches(contacts);
+    const std::vector<Motion> accelerations = carry(contacts, h);
+
+    Flight flight(bodies_, near_, field_, {world_, h, bounceSpeed(h)}, accelerations);
+    flight.run();
+    impacts_ += static_cast<std::uint64_t>(flight.impacts);
+    held_ += static_cast<std::uint64_t>(flight.held);
+    countStill(contacts, h);
+    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
+}
+
+/// Takes out balls whose state is no number and slows down those beyond the top speed, before either meets another.
+void PhysicsWorld::tame() {
+    const auto broken = [](const Body& b) {
+        return !finite(b.position) || !finite(b.velocity) || !finite(b.spin) || glm::dot(b.position, b.position) > 1e20;
+    };
+    for (Body& b : bodies_) {
+        if (broken(b)) {
+            note(fmt::format("{}: removed at {} s, its state is no number", b.name, time_s()));
+            continue;
+        }
+        if (shorten(b.velocity, kTopSpeed)) note(fmt::format("{}: slowed down to {} m/s", b.name, kTopSpeed));
+        if (shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
+    }
+    removeWhere(broken);
+}
+
+void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (gone(bodies_[i])) {
+            ++removed_;
+            gone_.push_back(bodies_[i].object);
+            std::erase_if(kept_, [&](const Kept& k) { return k.a == bodies_[i].object.value || k.b == bodies_[i].object.value; });
+            continue;
+        }
+        if (left != i) bodies_[left] = std::move(bodies_[i]), near_[left] = std::move(near_[i]);
+        ++left;
+    }
+    bodies_.resize(left), near_.resize(left);
+}
+
+void PhysicsWorld::note(std::string text) {
+    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
+}
+
+void PhysicsWorld::setMotion(std::size_t body, glm::dvec3 velocity, glm::dvec3 spin) {
+    bodies_[body].velocity = velocity, bodies_[body].spin = spin;
+    bodies_[body].awake = true, bodies_[body].still = 0;
+}
+
+void PhysicsWorld::throwAbout(std::uint64_t seed, double speed) {
+    Random random(seed);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const double x = random.in(-0.5, 0.5), y = random.in(0.2, 0.7), z = random.in(-0.5, 0.5);
+        const glm::dvec3 spin{random.in(-10, 10), random.in(-10, 10), random.in(-10, 10)};
+        setMotion(i, speed * glm::dvec3{x, y, z}, spin);
+    }
+}
+
+void PhysicsWorld::remove(ObjectId object) {
+    const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == object; });
+    if (found == bodies_.end()) return;
+    for (Body& b : bodies_)
+        if (glm::length(b.position - found->position) <= (b.radius + found->radius) * 1.01) b.awake = true, b.still = 0;
+    removeWhere([&](const Body& b) { return b.object == object; });
+    --removed_;  // it was taken, not lost
+}
+
+int PhysicsWorld::awake() const {
+    return static_cast<int>(std::count_if(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.awake; }));
+}
+
+Energy PhysicsWorld::energy() const {
+    Energy e;
+    for (const Body& b : bodies_) {
+        e.kinetic += 0.5 * (glm::dot(b.velocity, b.velocity) / b.inverse_mass + glm::dot(b.spin, b.spin) / b.inverse_inertia);
+        e.potential += world_.gravity * b.position.y / b.inverse_mass;
+    }
+    return e;
+}
+
+glm::dvec3 PhysicsWorld::momentum() const {
+    glm::dvec3 p{0};
+    for (const Body& b : bodies_) p += b.velocity / b.inverse_mass;
+    return p;
+}
+
+glm::dvec3 PhysicsWorld::angularMomentum() const {
+    glm::dvec3 l{0};
+    for (const Body& b : bodies_) l += glm::cross(b.position, b.velocity) / b.inverse_mass + b.spin / b.inverse_inertia;
+    return l;
+}
+
+double PhysicsWorld::maxPenetration() const {
+    double deepest = 0;
+    std::vector<Touch> touches;
+    std::vector<Reach> reach;
+    for (const Body& b : bodies_) {
+        reach.push_back({b.position, b.radius});
+        field_.touches(b.position, b.radius, 0, touches);
+        if (!touches.empty()) deepest = std::max(deepest, -touches[0].gap);
+    }
+    for (const auto& [i, j] : overlappingPairs(reach)) {
+        const Body &a = bodies_[static_cast<std::size_t>(i)], &b = bodies_[static_cast<std::size_t>(j)];
+        deepest = std::max(deepest, a.radius + b.radius - glm::length(a.position - b.position));
+    }
+    return deepest;
+}
+
+std::uint64_t PhysicsWorld::stateHash() const {
+    StateHash hash;
+    hash.add(steps_), hash.add(static_cast<std::uint64_t>(removed_));
+    hash.add(knobs_.dt), hash.add(static_cast<std::uint64_t>(knobs_.substeps)), hash.add(static_cast<std::uint64_t>(knobs_.iterations));
+    for (const Body& b : bodies_) {
+        hash.add(std::uint64_t{b.object.value});
+        hash.add(b.position), hash.add(b.velocity), hash.add(b.spin), hash.add(b.orientation);
+        hash.add(b.radius), hash.add(b.inverse_mass), hash.add(b.inverse_inertia);
+        hash.add(static_cast<std::uint64_t>(b.awake)), hash.add(static_cast<std::uint64_t>(b.still));
+    }
+    for (const Kept& k : kept_) {
+        hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
+        hash.add(k.normal), hash.add(k.push), hash.add(k.drag);
+    }
+    return hash.value();
+}
+
+std::string PhysicsWorld::stateText() const { return fmt::format("{:016x}", stateHash()); }
+
+}  // namespace mb

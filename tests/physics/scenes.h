@@ -1,0 +1,59 @@
+#pragma once
+// Small scenes for the tests of the physics.
+#include "physics/world.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace mb::test {
+
+inline constexpr double kPi = 3.14159265358979323846, kG = 9.81;
+
+inline Object& add(Scene& scene, std::string_view type, glm::dvec3 pos, std::initializer_list<double> numbers, int parent = kNoParent) {
+    Object o;
+    o.id = scene.newId(), o.type = findShapeType(type), o.pos = pos, o.parent = parent;
+    o.numbers = initialNumbers(*o.type);
+    std::size_t at = 0;
+    for (const double x : numbers) o.numbers[at++] = x;
+    scene.objects.push_back(o);
+    return scene.objects.back();
+}
+inline Object& ball(Scene& scene, glm::dvec3 pos, double radius, glm::dvec3 vel = {}, double mass = 1) {
+    Object& o = add(scene, "sphere", pos, {radius});
+    o.mass = mass, o.vel = vel;
+    return o;
+}
+inline Object& floor(Scene& scene) { return add(scene, "plane", {}, {0, 1, 0, 0}); }
+
+/// dt, restitution, friction; gravity as on earth.
+inline Scene scene(double dt, double restitution, double friction, double gravity = kG) {
+    Scene s;
+    s.physics.dt = dt;
+    s.world.restitution = restitution, s.world.friction = friction, s.world.gravity = gravity;
+    return s;
+}
+/// An intersection of two unit balls whose centres are ±0.9 from the origin along x: a lens with a rim in the plane x = 0.
+inline void lens(Scene& s) {
+    add(s, "intersect", {}, {0});
+    const int parent = static_cast<int>(s.objects.size()) - 1;
+    add(s, "sphere", {-0.9, 0, 0}, {1}, parent);
+    add(s, "sphere", {0.9, 0, 0}, {1}, parent);
+}
+/// A block with a spherical hollow of radius R around the origin, open at the top.
+inline void bowl(Scene& s, double R) {
+    add(s, "subtract", {}, {0});
+    const int parent = static_cast<int>(s.objects.size()) - 1;
+    add(s, "box", {0, -0.6 * R, 0}, {2.6 * R, 1.2 * R, 2.6 * R}, parent);
+    add(s, "sphere", {}, {R}, parent);
+}
+/// A groove of full opening angle `degrees` along z whose bottom is the origin: a box less two half-spaces.
+inline void groove(Scene& s, double degrees) {
+    const double a = degrees / 2 * kPi / 180;
+    add(s, "plane", {}, {std::cos(a), std::sin(a), 0, 0});
+    add(s, "plane", {}, {-std::cos(a), std::sin(a), 0, 0});
+}
+inline void run(PhysicsWorld& world, double seconds) {
+    for (const double end = world.time_s() + seconds - 0.5 * world.dt_s(); world.time_s() < end;) world.step();
+}
+
+}  // namespace mb::test
