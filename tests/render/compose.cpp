@@ -11,15 +11,24 @@ TEST_CASE("includes are resolved once, with the lines of their files") {
                          {"a.glsl", "a1\n#include \"b.glsl\"\na2\n"},
                          {"b.glsl", "b1"}};
     const Composed composed = resolve(texts, "main.glsl", "#define X\n");
-    CHECK(composed.text == "#version 330 core\n#define X\n#line 2 0\n#line 1 1\na1\n#line 1 2\nb1\n#line 3 1\na2\n#line 3 0\nm1\n#line 5 0\nm2\n");
+    CHECK(composed.text == "#version 330 core\n#define X\n#line 2\n#line 100001\na1\n#line 200001\nb1\n#line 100003\na2\n#line 3\nm1\n#line 5\nm2\n");
     CHECK(composed.files == std::vector<std::string>{"main.glsl", "a.glsl", "b.glsl"});
 }
 
 TEST_CASE("a cycle ends, a missing file is an error of the shader, an empty file is nothing") {
-    CHECK(resolve({{"a", "#include \"b\"\n"}, {"b", "#include \"a\"\nx\n"}}, "a").text == "#line 1 1\n#line 2 1\nx\n#line 2 0\n");
+    CHECK(resolve({{"a", "#include \"b\"\n"}, {"b", "#include \"a\"\nx\n"}}, "a").text == "#line 100001\n#line 100002\nx\n#line 2\n");
     CHECK(resolve({{"a", "#include \"gone\"\n"}}, "a").text.starts_with("#error there is no shader file gone\n"));
     CHECK(resolve({{"a", ""}}, "a").text.empty());
     CHECK(resolve({{"a", "// #include \"b\"\n"}}, "a").text == "// #include \"b\"\n");
+}
+
+TEST_CASE("a place is named by its file and line, in whatever form a compiler writes it") {
+    const Composed composed{"", {"main.glsl", "a.glsl"}};
+    CHECK(readablePlace(composed, 14) == "main.glsl:14");
+    CHECK(readablePlace(composed, 100'014) == "a.glsl:14");
+    CHECK(readablePlace(composed, 200'014) == "line 200014");
+    CHECK(readableLog(composed, "0:100014(7): error: x\nERROR: 0:14: y\n0(100014) : error z\nplain") ==
+          "a.glsl:14: error: x\nERROR: main.glsl:14: y\na.glsl:14 : error z\nplain\n");
 }
 
 TEST_CASE("a compiler's message names the file") {

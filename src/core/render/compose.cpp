@@ -26,7 +26,8 @@ struct Resolver {
         seen.emplace(path);
         const std::size_t number = out.files.size();
         out.files.emplace_back(path);
-        if (number > 0) out.text += fmt::format("#line 1 {}\n", number);
+        const auto directive = [&](int line) { return fmt::format("#line {}\n", static_cast<int>(number) * kFileLines + line); };
+        if (number > 0) out.text += directive(1);
 
         std::string_view rest = file->second;
         for (int line = 1; !rest.empty(); ++line) {
@@ -35,11 +36,11 @@ struct Resolver {
             rest.remove_prefix(end);
             if (const std::string_view included = includedBy(text); !included.empty()) {
                 if (!seen.contains(included)) add(included, {});
-                out.text += fmt::format("#line {} {}\n", line + 1, number);
+                out.text += directive(line + 1);
                 continue;
             }
             out.text += text;
-            if (text.starts_with("#version")) out.text += fmt::format("{}#line {} {}\n", head, line + 1, number);
+            if (text.starts_with("#version")) out.text += std::string(head) + directive(line + 1);
         }
         if (!out.text.empty() && out.text.back() != '\n') out.text += '\n';
     }
@@ -97,21 +98,24 @@ Composed resolve(const Texts& texts, std::string_view path, std::string_view hea
     return std::move(resolver.out);
 }
 
+std::string readablePlace(const Composed& composed, long line) {
+    const auto file = static_cast<std::size_t>(line / kFileLines);
+    return file < composed.files.size() ? fmt::format("{}:{}", composed.files[file], line % kFileLines) : fmt::format("line {}", line);
+}
+
 std::string readableLog(const Composed& composed, std::string_view log) {
-    // Mesa writes "2:14(7): error: …", others "2(14) : error" or "ERROR: 2:14: …".
-    static const std::regex kPlace(R"((^|\s)(\d{1,4})[:(](\d{1,6})(\(\d{1,6}\)|\))?)");
+    // Mesa writes "0:14(7): error: …", others "0(14) : error" or "ERROR: 0:14: …"; the first number is of no use.
+    static const std::regex kPlace(R"((^|\s)\d{1,4}[:(](\d{1,9})(\(\d{1,6}\)|\))?)");
     std::string readable;
     while (!log.empty()) {
         const std::size_t end = std::min(log.find('\n'), log.size());
         const std::string line(log.substr(0, std::min<std::size_t>(end, 1000)));
         log.remove_prefix(std::min(end + 1, log.size()));
         std::smatch place;
-        if (std::regex_search(line, place, kPlace) && std::stoul(place[2]) < composed.files.size()) {
-            readable += fmt::format("{}{}{}:{}{}\n", std::string(place.prefix()), place[1].str(), composed.files[std::stoul(place[2])],
-                                    place[3].str(), std::string(place.suffix()));
-        } else {
+        if (std::regex_search(line, place, kPlace))
+            readable += fmt::format("{}{}{}{}\n", std::string(place.prefix()), place[1].str(), readablePlace(composed, std::stol(place[2])), std::string(place.suffix()));
+        else
             readable += line + '\n';
-        }
     }
     return readable;
 }

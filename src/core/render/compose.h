@@ -10,11 +10,16 @@
 
 namespace mb {
 
-/// A text put together from files, with `#line` directives so that a compiler's message can be traced back.
+/// A text put together from files, with `#line` directives so that a compiler's message can be traced back. Line l of file i
+/// is called line i · kFileLines + l: Mesa forgets the file number that a #line states, but not the line.
 struct Composed {
     std::string text;
-    std::vector<std::string> files;  // the file that the compiler calls number i
+    std::vector<std::string> files;
 };
+inline constexpr int kFileLines = 100'000;
+
+/// The place of a line as a compiler knows it: "lib/march.glsl:12".
+std::string readablePlace(const Composed& composed, long line);
 
 using Texts = std::map<std::string, std::string, std::less<>>;
 
@@ -25,7 +30,7 @@ const Texts& shaderLibrary();
 /// file is dropped) and `head` put behind its #version line. A missing file leaves an #error in its place.
 Composed resolve(const Texts& texts, std::string_view path, std::string_view head = {});
 
-/// A compiler's log with the file numbers of `composed` replaced by names: "lib/march.glsl:12: …".
+/// A compiler's log with the places in `composed` replaced by names: "lib/march.glsl:12: …".
 std::string readableLog(const Composed& composed, std::string_view log);
 
 /// map() and nearest() for a tree, as straight-line GLSL that reads every number from the blocks by a constant index. Two

@@ -69,12 +69,16 @@ Box prismExtent(const LeafNumbers& k) {
     return box;
 }
 
+/// Slowest along the longest axis.
+double ellipsoidRises(const LeafNumbers& k) { return std::min({k[0], k[1], k[2]}) / std::max({k[0], k[1], k[2]}); }
+
 struct About {
     std::string_view name, glsl, tip;
     bool exact = true;
     void (*cook)(LeafNumbers&) = nullptr;
     std::string_view derived = {};
     bool turns = true;
+    double (*rises)(const LeafNumbers&) = nullptr;
 };
 
 /// `f` names one function of Sdf<real> for every real: from it come the evaluators. A row whose parameters do not match
@@ -85,9 +89,10 @@ constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F 
     for (const Parameter& p : parameters) declared += p.size;
     if (declared != sdf::argumentNumbers(f(sdf::Sdf<float>{})) || declared > kMaxLeafNumbers)
         throw "the parameters do not match the GLSL function";
+    if (about.exact != (about.rises == nullptr)) throw "a bound must say how fast it rises, and only a bound";
     Primitive p{};
     p.name = about.name, p.tip = about.tip, p.parameters = parameters;
-    p.glsl = about.glsl, p.derived = about.derived, p.exact = about.exact, p.turns = about.turns, p.cook = about.cook, p.extent = extent;
+    p.glsl = about.glsl, p.derived = about.derived, p.exact = about.exact, p.turns = about.turns, p.cook = about.cook, p.extent = extent, p.rises = about.rises;
     p.f32 = [](sdf::Vec3<float> q, const double* k) { return sdf::call(F{}(sdf::Sdf<float>{}), q, k); };
     p.f64 = [](sdf::Vec3<double> q, const double* k) { return sdf::call(F{}(sdf::Sdf<double>{}), q, k); };
     p.dual = [](sdf::Vec3<sdf::Dual> q, const double* k) { return sdf::call(F{}(sdf::Sdf<sdf::Dual>{}), q, k); };
@@ -110,7 +115,8 @@ constexpr Primitive kPrimitives[] = {
         [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); }),
     row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
         [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); }),
-    row({"ellipsoid", "sdEllipsoid", "A ball stretched along the axes", false}, kEllipsoid, MB_FUNCTION(sdEllipsoid),
+    row({.name = "ellipsoid", .glsl = "sdEllipsoid", .tip = "A ball stretched along the axes", .exact = false, .rises = ellipsoidRises},
+        kEllipsoid, MB_FUNCTION(sdEllipsoid),
         [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); }),
     row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
         [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),

@@ -188,16 +188,28 @@ Box bounds(const Tree& tree) {
         for (std::size_t i = 0; i < 3; ++i) a.lo[i] = std::max(a.lo[i], b.lo[i]), a.hi[i] = std::min(a.hi[i], b.hi[i]);
         return a;
     };
-    return run<Box>(
-        tree, empty, [&](std::size_t i) { return bounds(tree.leaves[i]); },
-        [&](const Branch& b, const Box& x, const Box& y) {
-            if (b.op->first_only) return x;  // a blend only takes away where it subtracts or intersects
-            if (b.op->intersects) return both(x, y);
-            Box box = either(x, y);
-            for (std::size_t i = 0; i < 3; ++i) box.lo[i] -= b.blend / 4, box.hi[i] += b.blend / 4;
-            return box;
-        },
-        either);
+    // Where the value is no more than e, a point lies within e/rises of the box: a blend's k/4 carries a bound's surface
+    // further than a distance's.
+    struct Reach {
+        Box box;
+        double rises = 1;
+    };
+    return run<Reach>(
+               tree, Reach{empty},
+               [&](std::size_t i) {
+                   const Leaf& leaf = tree.leaves[i];
+                   return Reach{bounds(leaf), leaf.primitive->rises ? leaf.primitive->rises(leaf.numbers) : 1};
+               },
+               [&](const Branch& b, const Reach& x, const Reach& y) {
+                   if (b.op->first_only) return x;  // a blend only takes away where it subtracts or intersects
+                   const double rises = std::min(x.rises, y.rises);
+                   if (b.op->intersects) return Reach{both(x.box, y.box), rises};
+                   Reach r{either(x.box, y.box), rises};
+                   for (std::size_t i = 0; i < 3; ++i) r.box.lo[i] -= b.blend / 4 / rises, r.box.hi[i] += b.blend / 4 / rises;
+                   return r;
+               },
+               [&](const Reach& x, const Reach& y) { return Reach{either(x.box, y.box), std::min(x.rises, y.rises)}; })
+        .box;
 }
 
 }  // namespace mb

@@ -1,0 +1,261 @@
+// The program as a user calls it: what it prints, what it writes, and how it ends.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder of this test's own, gone with it.
+struct Scratch {
+    fs::path path = fs::temp_directory_path() / ("marchbox_cli_" + std::to_string(getpid()));
+    Scratch() { fs::create_directories(path); }
+    ~Scratch() { fs::remove_all(path); }
+    std::string operator/(const std::string& name) const { return path / name; }
+};
+
+struct Ran {
+    int code = -1;
+    std::string out, err;
+};
+/// Runs the program in a shell; the arguments are of this file, so no quoting is at stake.
+Ran run(const Scratch& scratch, const std::string& arguments) {
+    const std::string out = scratch / "out", err = scratch / "err";
+    const int status = std::system((std::string(MARCHBOX_BINARY) + " " + arguments + " >" + out + " 2>" + err + " </dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+}
+
+const std::string kScene = "marchbox 1\nworld restitution:0.5\nlight pos:3,5,4\nobject name:floor type:plane\n"
+                           "object name:ball type:sphere pos:0,2.5,0 radius:0.5 mass:1\ncamera name:side eye:6,1,0 target:0,1,0\n";
+std::string write(const Scratch& scratch, const std::string& name, const std::string& text) {
+    std::ofstream(scratch / name, std::ios::binary) << text;
+    return scratch / name;
+}
+
+/// The floats of a PFM, the top row first, with its channels and size.
+struct Pfm {
+    std::string kind;
+    int width = 0, height = 0;
+    std::vector<float> values;
+};
+Pfm readPfm(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    Pfm pfm;
+    double scale = 0;
+    file >> pfm.kind >> pfm.width >> pfm.height >> scale;
+    file.get();
+    CHECK(scale == -1.0);
+    const std::size_t row = static_cast<std::size_t>(pfm.width) * (pfm.kind == "PF" ? 3 : 1);
+    pfm.values.resize(row * static_cast<std::size_t>(pfm.height));
+    for (int y = pfm.height - 1; y >= 0; --y)
+        file.read(reinterpret_cast<char*>(pfm.values.data() + static_cast<std::size_t>(y) * row), static_cast<std::streamsize>(row * 4));
+    CHECK(file.good());
+    return pfm;
+}
+
+}  // namespace
+
+TEST_CASE("help and version; a command line at fault ends with 2") {
+    const Scratch scratch;
+    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check"}) {
+        CAPTURE(command);
+        const Ran help = run(scratch, std::string(command) + " --help");
+        CHECK(help.code == 0);
+        CHECK(help.out.find(*command ? "Example:" : "simulate") != std::string::npos);
+    }
+    CHECK(run(scratch, "--version").out.starts_with("marchbox "));
+    const std::string scene = write(scratch, "s.txt", kScene);
+    for (const std::string& arguments :
+         {std::string("render"), "render " + scene, "render " + scene + " -o x.png --size 0x9", "render " + scene + " -o x.png --size 9",
+          "render " + scene + " -o x.png --set nonsense", "render " + scene + " -o x.png --set march_step=9",
+          "render " + scene + " -o x.png --set march_steps=0", "render " + scene + " -o x.png --aov deep", "render " + scene + " -o x.png --frames 2",
+          "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
+          std::string("--nonsense")}) {
+        CAPTURE(arguments);
+        const Ran ran = run(scratch, arguments);
+        CHECK(ran.code == 2);
+        CHECK(ran.err != "");
+    }
+    CHECK(run(scratch, "render " + scene + " -o x.png --set march_step=9").err.find("march_steps") != std::string::npos);
+}
+
+TEST_CASE("an input at fault ends with 1 and its places; a file at fault ends with 4") {
+    const Scratch scratch;
+    const std::string bad = write(scratch, "bad.txt", "marchbox 1\nobject type:spher radius:1\nlight pos:1,2\n");
+    const Ran checked = run(scratch, "check " + bad);
+    CHECK(checked.code == 1);
+    CHECK(checked.err.find(bad + ":2:") == 0);
+    CHECK(checked.err.find("error: ") != std::string::npos);
+    CHECK(checked.err.find("'sphere'") != std::string::npos);
+    CHECK(checked.err.find(bad + ":3:") != std::string::npos);
+    CHECK(run(scratch, "render " + bad + " -o " + scratch / "x.png").code == 1);
+    CHECK(!fs::exists(scratch / "x.png"));
+
+    CHECK(run(scratch, "check " + scratch / "missing.txt").code == 4);
+    CHECK(run(scratch, "check " + scratch.path.string()).code == 4);
+    CHECK(run(scratch, "check /dev/zero").code == 4);
+    const std::string scene = write(scratch, "s.txt", kScene);
+    CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "no/such/folder.png").code == 4);
+    CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "x.png" + " --camera nobody").code == 1);
+    CHECK(run(scratch, "render " + scene + " --size 99999x9 -o " + scratch / "x.png").code == 1);
+    CHECK(run(scratch, "check --quiet " + scene).out == "");
+    CHECK(run(scratch, "check " + scene + " " + bad).code == 1);
+}
+
+TEST_CASE("render writes the picture, its channels and its statistics") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene);
+    const Ran ran = run(scratch, "render " + scene + " -o " + scratch / "p.png --size 64x36 --aov depth,normal,object,color,steps,state --stats " +
+                                     scratch / "p.json");
+    REQUIRE_MESSAGE(ran.code == 0, ran.err);
+    CHECK(read(scratch / "p.png").starts_with("\x89PNG"));
+    const Pfm depth = readPfm(scratch / "p.depth.pfm"), normal = readPfm(scratch / "p.normal.pfm"), object = readPfm(scratch / "p.object.pfm");
+    const Pfm color = readPfm(scratch / "p.color.pfm"), steps = readPfm(scratch / "p.steps.pfm"), state = readPfm(scratch / "p.state.pfm");
+    CHECK(depth.kind == "Pf");
+    CHECK(normal.kind == "PF");
+    CHECK(color.values.size() == 64u * 36 * 3);
+    std::size_t hits = 0, misses = 0;
+    double evaluations = 0;
+    for (std::size_t i = 0; i < state.values.size(); ++i) {
+        evaluations += static_cast<double>(steps.values[i]);
+        if (state.values[i] == 1) {
+            ++hits;
+            CHECK((std::isfinite(depth.values[i]) && object.values[i] >= 0));
+        } else if (state.values[i] == 0) {
+            ++misses;
+            CHECK((std::isinf(depth.values[i]) && object.values[i] == -1 && normal.values[3 * i] == 0));
+        }
+    }
+    const auto stats = nlohmann::json::parse(read(scratch / "p.json"));
+    CHECK(stats["width"] == 64);
+    CHECK(stats["pixels"]["hit"] == hits);
+    CHECK(stats["pixels"]["miss"] == misses);
+    CHECK(stats["evaluations"]["primary"] == evaluations);
+    CHECK(stats["rays"]["primary"] == 64 * 36);
+    CHECK(stats["rays"]["reflection"] == 0);
+    CHECK(stats["effects"] == nlohmann::json({"light", "shadow"}));
+    CHECK(stats["frame_ms"] > 0);
+    CHECK(stats["renderer"] != "");
+
+    // Counts are the same on every run.
+    run(scratch, "render " + scene + " -o " + scratch / "q.png --size 64x36 --stats " + scratch / "q.json");
+    CHECK(nlohmann::json::parse(read(scratch / "q.json"))["evaluations"] == stats["evaluations"]);
+    CHECK(read(scratch / "q.png") == read(scratch / "p.png"));
+}
+
+TEST_CASE("render --at, --camera, --set and --frames change what they say") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene);
+    const auto picture = [&](const std::string& more) {
+        const std::string file = scratch / "p.png";
+        const Ran ran = run(scratch, "render " + scene + " --size 32x18 -o " + file + more);
+        REQUIRE_MESSAGE(ran.code == 0, ran.err);
+        return read(file);
+    };
+    const std::string plain = picture("");
+    CHECK(picture(" --at 0.5") != plain);
+    CHECK(picture(" --camera side") != plain);
+    CHECK(picture(" --set background=1,0,0") != plain);
+    CHECK(picture(" --set gravity=0 --set dt=0.01 --at 1") == plain);
+    REQUIRE(run(scratch, "render " + scene + " --size 16x9 --frames 3 --fps 10 -o " + scratch / "f_%03d.png").code == 0);
+    CHECK(fs::exists(scratch / "f_002.png"));
+    CHECK(!fs::exists(scratch / "f_003.png"));
+    if (std::system("command -v ffmpeg >/dev/null") == 0) {
+        CHECK(run(scratch, "render " + scene + " --size 17x9 --frames 3 -o " + scratch / "f.mp4").code == 0);
+        CHECK(fs::file_size(scratch / "f.mp4") > 100);
+    } else {
+        MESSAGE("no ffmpeg here: films are not tested");
+    }
+}
+
+TEST_CASE("simulate prints one line of JSON, and a trace whose last row is the end") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene);
+    const Ran ran = run(scratch, "simulate " + scene + " --seconds 0.5 --dt 0.01 --every 10 --trace " + scratch / "t.csv");
+    REQUIRE_MESSAGE(ran.code == 0, ran.err);
+    const auto json = nlohmann::json::parse(ran.out);
+    CHECK(json["seconds"] == doctest::Approx(0.5));
+    CHECK(json["steps"] == 50);
+    CHECK(json["bodies"] == 1);
+    CHECK(json["state"].get<std::string>().size() == 16);
+    // After half a second of free fall: v = g t, and the energy it began with.
+    CHECK(json["energy"]["kinetic"].get<double>() == doctest::Approx(0.5 * std::pow(9.81 * 0.5, 2)).epsilon(1e-9));
+    CHECK(json["momentum"][1].get<double>() == doctest::Approx(-9.81 * 0.5));
+
+    std::istringstream trace(read(scratch / "t.csv"));
+    std::string line, last;
+    int rows = 0;
+    std::getline(trace, line);
+    CHECK(line == "time,name,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+    for (; std::getline(trace, line); ++rows) last = line;
+    CHECK(rows == 6);
+    CHECK(last.starts_with("0.5,ball,0,"));
+
+    const auto state = [&](const std::string& more) { return nlohmann::json::parse(run(scratch, "simulate " + scene + more).out)["state"]; };
+    CHECK(state(" --seconds 2") == state(" --seconds 2"));
+    CHECK(state(" --seconds 2") != state(" --seconds 2.5"));
+}
+
+TEST_CASE("eval agrees with itself on both processors") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene), points = write(scratch, "p.csv", "0,1,0\n0,2.5,0\n\n3,1,-2\r\n");
+    const auto numbers = [&](const std::string& on) {
+        const Ran ran = run(scratch, "eval " + scene + " --points " + points + " --on " + on);
+        REQUIRE_MESSAGE(ran.code == 0, ran.err);
+        std::vector<double> values;
+        std::istringstream text(ran.out);
+        for (std::string value; std::getline(text, value, ',');) {
+            const std::size_t line = value.find('\n');
+            values.push_back(std::stod(value.substr(0, line)));
+            if (line != std::string::npos && line + 1 < value.size()) values.push_back(std::stod(value.substr(line + 1)));
+        }
+        return values;
+    };
+    const std::vector<double> cpu64 = numbers("cpu64"), cpu = numbers("cpu"), gpu = numbers("gpu");
+    REQUIRE(cpu64.size() == 24);
+    REQUIRE(cpu.size() == 24);
+    REQUIRE(gpu.size() == 24);
+    CHECK(cpu64[3] == 1.0);
+    CHECK(cpu64[7] == 0);
+    CHECK(cpu64[8 + 3] == -0.5);
+    CHECK(cpu64[8 + 7] == 1);
+    for (std::size_t i = 0; i < 24; ++i) {
+        if (i / 8 == 1 && i % 8 >= 4 && i % 8 <= 6) continue;  // the ball's centre has no gradient
+        CHECK(cpu[i] == doctest::Approx(cpu64[i]).epsilon(1e-6));
+        CHECK(gpu[i] == doctest::Approx(cpu64[i]).epsilon(1e-4));
+    }
+    const std::string bad = write(scratch, "bad.csv", "1,2,3\n1,2\n");
+    const Ran ran = run(scratch, "eval " + scene + " --points " + bad);
+    CHECK(ran.code == 1);
+    CHECK(ran.err.find(bad + ":2:") != std::string::npos);
+}
+
+TEST_CASE("effects says what was called for, by what") {
+    const Scratch scratch;
+    const Ran ran = run(scratch, "effects --json " MARCHBOX_SOURCE "/saves/mirrors.txt");
+    REQUIRE_MESSAGE(ran.code == 0, ran.err);
+    const auto json = nlohmann::json::parse(ran.out);
+    for (const auto& effect : json["effects"])
+        if (effect["name"] == "reflection") {
+            CHECK(effect["called"] == true);
+            CHECK(effect["by"].get<std::string>().find("Kr:") != std::string::npos);
+            CHECK(effect["evaluations"] > 0);
+        }
+}

@@ -1,0 +1,106 @@
+#pragma once
+// Scenes drawn at random, and a second evaluator to hold the first one to: it walks the objects themselves, each in its own
+// frame, with 4x4 matrices, and knows nothing of how makeTree lays a tree out.
+#include "scenes.h"
+#include "sdf/draw.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <vector>
+
+namespace mb {
+
+struct SceneKind {
+    int levels = 4;            // of objects below one another
+    int children = 4;          // of an operator, at most
+    double hidden = 0;         // the share of objects that are
+    bool blends = true;
+    double extent = 2;         // m: positions, and about the size of the largest shapes
+};
+
+inline Object drawObject(Draw& draw, const SceneKind& kind, const ShapeType& type, int level) {
+    Object o;
+    o.type = &type;
+    const double share = std::pow(0.7, level);
+    do o.numbers = drawNumbers(draw, type, 0.3 * kind.extent * share, 2);
+    while (!type.isOperator() && !cooked(asPrimitive(type), o.numbers));
+    if (type.isOperator()) o.numbers[0] = kind.blends && draw.oneIn(2) ? draw.uniform(0, 0.3) : 0;
+    const auto side = [&] { return draw.oneIn(4) ? 0 : draw.uniform(-0.5, 0.5) * kind.extent * share; };
+    o.pos = {side(), side(), side()};
+    const auto angle = [&] { return draw.oneIn(3) ? 90.0 * draw.below(4) : draw.uniform(-180, 180); };
+    if (!draw.oneIn(3)) o.rot = {angle(), angle(), angle()};
+    if (draw.oneIn(2)) o.scale = draw.uniform(0.6, 1.6);
+    o.hidden = draw.uniform(0, 1) < kind.hidden;
+    return o;
+}
+
+inline const Primitive& anyPrimitive(Draw& draw) { return primitives()[static_cast<std::size_t>(draw.below(static_cast<int>(primitives().size())))]; }
+inline const Operator& anyOperator(Draw& draw) {
+    for (;;) {
+        const Operator& op = operators()[static_cast<std::size_t>(draw.below(static_cast<int>(operators().size())))];
+        if (op.evaluated()) return op;
+    }
+}
+
+/// Adds an object with all that is below it.
+inline void addRandom(Scene& scene, Draw& draw, const SceneKind& kind, int parent = kNoParent, int level = 0) {
+    const bool leaf = level + 1 >= kind.levels || (level > 0 && draw.oneIn(2));
+    Object o = leaf ? drawObject(draw, kind, anyPrimitive(draw), level) : drawObject(draw, kind, anyOperator(draw), level);
+    o.id = scene.newId(), o.parent = parent;
+    scene.objects.push_back(o);
+    const int self = static_cast<int>(scene.objects.size()) - 1;
+    if (!leaf)
+        for (int i = draw.below(kind.children) + 1; i > 0; --i) addRandom(scene, draw, kind, self, level + 1);
+}
+
+inline glm::dmat4 placed(const Object& o) {
+    glm::dmat4 m = glm::translate(glm::dmat4(1), o.pos);
+    m = glm::rotate(m, glm::radians(o.rot.z), glm::dvec3(0, 0, 1));
+    m = glm::rotate(m, glm::radians(o.rot.y), glm::dvec3(0, 1, 0));
+    m = glm::rotate(m, glm::radians(o.rot.x), glm::dvec3(1, 0, 0));
+    return glm::scale(m, glm::dvec3(o.scale));
+}
+
+/// What an object alone says at a point of its parent's frame, in that frame's metres, and which object's surface it is.
+struct Found {
+    double distance;
+    std::size_t object;
+};
+inline std::optional<Found> foundBelow(const Scene& scene, std::size_t i, glm::dvec3 p) {
+    const Object& o = scene.objects[i];
+    if (o.hidden) return std::nullopt;
+    const glm::dvec3 q = glm::dvec3(glm::inverse(placed(o)) * glm::dvec4(p, 1));
+    if (!o.type->isOperator()) {
+        const Primitive& row = asPrimitive(*o.type);
+        return Found{row.distance<double>({q.x, q.y, q.z}, *cooked(row, o.numbers)) * o.scale, i};
+    }
+    // A child that is not there is the empty set: it adds nothing and takes nothing away, but shares nothing either.
+    const Operator& op = asOperator(*o.type);
+    std::optional<Found> sum;
+    bool first = true;
+    for (std::size_t c = i + 1; c < scene.objects.size(); ++c) {
+        if (scene.objects[c].parent != static_cast<int>(i)) continue;
+        const std::optional<Found> child = foundBelow(scene, c, q);
+        if (!child && (op.intersects || (op.first_only && first))) return std::nullopt;
+        first = false;
+        if (!child) continue;
+        if (!sum) sum = child;
+        else sum = Found{op.fold<double>(sum->distance, child->distance, o.numbers[0]),
+                         op.takesSecond(sum->distance, child->distance) ? child->object : sum->object};
+    }
+    if (sum) sum->distance *= o.scale;
+    return sum;
+}
+inline std::optional<Found> found(const Scene& scene, glm::dvec3 p) {
+    std::optional<Found> nearest;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (scene.objects[i].parent != kNoParent) continue;
+        const std::optional<Found> o = foundBelow(scene, i, p);
+        if (o && (!nearest || o->distance < nearest->distance)) nearest = o;
+    }
+    return nearest;
+}
+
+}  // namespace mb
