@@ -21,8 +21,9 @@ setup() {
         $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing >&2
 }
 
-# build PRESET: configures once, then builds what changed; quiet unless something is wrong.
+# build PRESET [TARGET]: configures once, then builds what changed; says nothing where nothing did.
 build() {
     [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >&2 || return 1
+    ninja -C "build/$1" -n ${2:+"$2"} 2>/dev/null | grep -q 'no work to do' && return 0
     cmake --build --preset "$1" ${2:+--target "$2"} >&2
 }

@@ -28,9 +28,7 @@ Counts countsOf(const Scene& scene) {
 
 void run(const Options& options, const Common& common) {
     const Scene scene = readSceneFile(options.scene, options.settings, common);
-    if (const auto object = firstUnevaluated(scene))
-        throw Failure{kInputFault, fmt::format("object '{}' is a '{}', which this version cannot draw yet", label(scene, *object),
-                                               scene.objects[*object].type->name)};
+    if (const std::string why = whyUnevaluated(scene); !why.empty()) throw Failure{kInputFault, why};
     const Plan plan = makePlan(scene, makeTree(scene));
     const auto evaluations = countsOf(scene).evaluations;
     const auto cost = [&](std::string_view effect) -> std::uint64_t {

@@ -68,9 +68,7 @@ std::vector<Sample> evaluateOnGpu(const Scene& scene, const std::vector<glm::dve
 
 void run(const Options& options, const Common& common) {
     const Scene scene = readSceneFile(options.scene, options.settings, common);
-    if (const auto object = firstUnevaluated(scene))
-        throw Failure{kInputFault, fmt::format("object '{}' is a '{}', which this version cannot evaluate yet", label(scene, *object),
-                                               scene.objects[*object].type->name)};
+    if (const std::string why = whyUnevaluated(scene); !why.empty()) throw Failure{kInputFault, why};
     const std::vector<glm::dvec3> points = readPoints(options.points);
     std::vector<Sample> samples;
     if (options.on == "gpu") {

@@ -9,9 +9,7 @@ namespace mb {
 
 /// Whether the scene can be stepped; remembers the objects before the first step.
 bool Editor::readyToMove() {
-    if (const auto object = firstUnevaluated(scene_))
-        return refuse(fmt::format("object '{}' is a '{}', which this version cannot move yet", label(scene_, *object),
-                                  scene_.objects[*object].type->name));
+    if (const std::string why = whyUnevaluated(scene_); !why.empty()) return refuse(why);
     if (!before_) before_ = scene_.objects;
     return true;
 }

@@ -1,41 +1,30 @@
 // Rendering with no window and no display server through EGL's surfaceless platform (Mesa). The library is looked for
 // when the program runs; only its header is needed to build.
 #include "core/render/context.h"
+#include "core/render/library.h"
 #include "core/render/loader.h"
 
 #if __has_include(<EGL/egl.h>)
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-
-#include <dlfcn.h>
 #endif
 
 namespace mb {
 #if __has_include(<EGL/egl.h>)
 namespace {
 
-struct Library {
-    decltype(&eglGetProcAddress) get = nullptr;
-    decltype(&eglGetPlatformDisplay) display = nullptr;
-    decltype(&eglInitialize) initialize = nullptr;
-    decltype(&eglBindAPI) bind = nullptr;
-    decltype(&eglChooseConfig) choose = nullptr;
-    decltype(&eglCreateContext) create = nullptr;
-    decltype(&eglDestroyContext) destroy = nullptr;
-    decltype(&eglMakeCurrent) make_current = nullptr;
-    std::string why;
+struct EglLibrary : Library {
+    decltype(&eglGetProcAddress) get;
+    decltype(&eglGetPlatformDisplay) display;
+    decltype(&eglInitialize) initialize;
+    decltype(&eglBindAPI) bind;
+    decltype(&eglChooseConfig) choose;
+    decltype(&eglCreateContext) create;
+    decltype(&eglDestroyContext) destroy;
+    decltype(&eglMakeCurrent) make_current;
 
-    Library() {
-        void* file = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-        if (!file) {
-            why = "EGL: libEGL.so.1 is not installed";
-            return;
-        }
-        const auto find = [&](auto& function, const char* name) {
-            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(file, name));
-            if (!function) why = std::string("EGL: it lacks ") + name;
-        };
+    EglLibrary() : Library("EGL", {"libEGL.so.1"}) {
         find(get, "eglGetProcAddress");
         find(display, "eglGetPlatformDisplay");
         find(initialize, "eglInitialize");
@@ -47,8 +36,8 @@ struct Library {
     }
 };
 
-const Library& library() {
-    static const Library loaded;
+const EglLibrary& library() {
+    static const EglLibrary loaded;
     return loaded;
 }
 
@@ -77,8 +66,8 @@ private:
 }  // namespace
 
 std::unique_ptr<Context> makeEgl(std::string& why) {
-    const Library& egl = library();
-    why = egl.why;
+    const EglLibrary& egl = library();
+    why = egl.why();
     if (!why.empty()) return nullptr;
     const EGLDisplay display = egl.display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY || !egl.initialize(display, nullptr, nullptr) || !egl.bind(EGL_OPENGL_API)) {

@@ -1,35 +1,23 @@
 // Rendering into memory with Mesa's off-screen library. It left Mesa in version 25.1, so it is looked for when the program
 // runs, and the few facts of its interface that are needed are stated here rather than in a header that may be missing.
 #include "core/render/context.h"
+#include "core/render/library.h"
 #include "core/render/loader.h"
-
-#include <dlfcn.h>
 
 #include <array>
 
 namespace mb {
 namespace {
 
-struct Library {
-    using OsContext = void*;
-    OsContext (*create)(const int* attributes, OsContext share) = nullptr;
-    void (*destroy)(OsContext) = nullptr;
-    unsigned char (*make_current)(OsContext, void* buffer, unsigned type, int width, int height) = nullptr;
-    AnyFunction (*get)(const char*) = nullptr;
-    std::string why;
+using OsContext = void*;
 
-    Library() {
-        void* file = nullptr;
-        for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
-            if (!file) file = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-        if (!file) {
-            why = "OSMesa: libOSMesa.so is not installed";
-            return;
-        }
-        const auto find = [&](auto& function, const char* name) {
-            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(file, name));
-            if (!function) why = std::string("OSMesa: it lacks ") + name;
-        };
+struct OsmesaLibrary : Library {
+    OsContext (*create)(const int* attributes, OsContext share);
+    void (*destroy)(OsContext);
+    unsigned char (*make_current)(OsContext, void* buffer, unsigned type, int width, int height);
+    AnyFunction (*get)(const char*);
+
+    OsmesaLibrary() : Library("OSMesa", {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
         find(create, "OSMesaCreateContextAttribs");
         find(destroy, "OSMesaDestroyContext");
         find(make_current, "OSMesaMakeCurrent");
@@ -37,14 +25,14 @@ struct Library {
     }
 };
 
-const Library& library() {
-    static const Library loaded;
+const OsmesaLibrary& library() {
+    static const OsmesaLibrary loaded;
     return loaded;
 }
 
 class Osmesa final : public Context {
 public:
-    explicit Osmesa(Library::OsContext context) : context_(context) {}
+    explicit Osmesa(OsContext context) : context_(context) {}
     ~Osmesa() override { library().destroy(context_); }
     Osmesa(const Osmesa&) = delete;
     Osmesa& operator=(const Osmesa&) = delete;
@@ -57,18 +45,18 @@ public:
     std::string_view name() const override { return "OSMesa"; }
 
 private:
-    Library::OsContext context_;
+    OsContext context_;
     std::array<unsigned char, 64> buffer_{};  // 4 by 4 pixels nobody draws to: pictures go to framebuffer objects
 };
 
 }  // namespace
 
 std::unique_ptr<Context> makeOsmesa(std::string& why) {
-    why = library().why;
+    why = library().why();
     if (!why.empty()) return nullptr;
     // Format RGBA, core profile, version 3.3.
     constexpr int kAttributes[] = {0x22, 0x1908, 0x33, 0x34, 0x36, 3, 0x37, 3, 0};
-    const Library::OsContext made = library().create(kAttributes, nullptr);
+    const OsContext made = library().create(kAttributes, nullptr);
     if (!made) {
         why = "OSMesa: it offers no OpenGL 3.3 core context";
         return nullptr;

@@ -159,11 +159,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         ready.why = fmt::format("a picture of {}x{} pixels: each side must be between 1 and {}", size.x, size.y, most);
         return ready;
     }
-    if (const auto object = firstUnevaluated(scene)) {
-        ready.why = fmt::format("object '{}' is a '{}', which this version cannot draw yet", label(scene, *object),
-                                scene.objects[*object].type->name);
-        return ready;
-    }
+    if (ready.why = whyUnevaluated(scene); !ready.why.empty()) return ready;
     const Tree tree = makeTree(scene);
     plan_ = makePlan(scene, tree);
     if (ready.why = plan_.refused; !ready.why.empty()) return ready;

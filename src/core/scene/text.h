@@ -27,6 +27,7 @@ struct ReadResult {
     Scene scene;                  // empty if there is a fault
     std::vector<Fault> faults;    // in the order of the text
     std::vector<Fault> warnings;  // what this version reads and keeps but cannot show as meant; at most kMaxFaults
+    int render_line = 1;          // where the render record stands, for what is wrong with its knobs together
     bool ok() const { return faults.empty(); }
 };
 

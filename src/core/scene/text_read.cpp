@@ -49,6 +49,7 @@ ReadResult Reader::read(std::string_view bytes) {
         if (!faults_.stopped()) form_ == Form::older ? finishOlder() : finishObjects();
     }
     ReadResult result;
+    result.render_line = std::max(render_line_, 1);
     result.faults = faults_.take();
     if (!result.ok()) return result;
     warn();

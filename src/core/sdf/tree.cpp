@@ -1,5 +1,7 @@
 #include "core/sdf/tree.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 namespace mb {
@@ -124,6 +126,13 @@ std::optional<std::size_t> firstUnevaluated(const Scene& scene) {
         if (o.type->isOperator() && !asOperator(*o.type).evaluated()) return i;
     }
     return std::nullopt;
+}
+
+std::string whyUnevaluated(const Scene& scene) {
+    const auto object = firstUnevaluated(scene);
+    return object ? fmt::format("object '{}' is of type '{}', which this version can neither draw nor touch", label(scene, *object),
+                                scene.objects[*object].type->name)
+                  : std::string();
 }
 
 template <class R> R distance(const Tree& tree, sdf::Vec3<R> p) {

@@ -52,8 +52,9 @@ template <class R> struct Nearest {
 /// Objects whose type no evaluator knows must not be among them: see firstUnevaluated.
 Tree makeTree(const Scene& scene, const std::function<bool(std::size_t)>& wanted = {});
 
-/// The first visible object whose type this version cannot evaluate, if any.
+/// The first object whose type this version cannot evaluate, if any; and that as a sentence, empty where there is none.
 std::optional<std::size_t> firstUnevaluated(const Scene& scene);
+std::string whyUnevaluated(const Scene& scene);
 
 /// The signed distance bound of the tree at p, for R = float, double, sdf::Dual or sdf::Interval: never more than the
 /// distance to the nearest surface, negative inside.
