@@ -21,9 +21,13 @@ setup() {
         $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing >&2
 }
 
-# build PRESET [TARGET]: configures once, then builds what changed; says nothing where nothing did.
+# build PRESET [TARGET]: configures once, then builds what changed. The first time it tells how far it is; later, only
+# what went wrong.
 build() {
     [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >&2 || return 1
-    ninja -C "build/$1" -n ${2:+"$2"} 2>/dev/null | grep -q 'no work to do' && return 0
-    cmake --build --preset "$1" ${2:+--target "$2"} >&2
+    if [ -f "build/$1/built" ]; then
+        ninja -C "build/$1" --quiet ${2:+"$2"} 2>&1 | grep -vE '^ninja: (no work|Entering)' >&2
+        return "${PIPESTATUS[0]}"
+    fi
+    cmake --build --preset "$1" ${2:+--target "$2"} >&2 && touch "build/$1/built"
 }
