@@ -27,8 +27,9 @@ std::function<void()> make(CLI::App& app, Common& common) {
             const Exit code = reportFaults(loaded, path, common);
             worst = std::max(worst, code);
             if (code == kDone && !common.quiet)
-                fmt::print("{}: sound: {} objects, {} materials, {} lights\n", path, loaded.scene.objects.size(),
-                           loaded.scene.materials.size(), loaded.scene.lights.size());
+                writeText("-", fmt::format("{}: sound: {} objects, {} materials, {} lights{}\n", path, loaded.scene.objects.size(),
+                                           loaded.scene.materials.size(), loaded.scene.lights.size(),
+                                           firstUnevaluated(loaded.scene) ? "; this version cannot draw it" : ""));
         }
         if (worst != kDone) throw Failure{worst, {}};
     };

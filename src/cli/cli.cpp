@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include "core/scene/file.h"
+
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -59,11 +61,22 @@ void addSettings(CLI::App& app, std::vector<std::string>& settings) {
 }
 
 void writeText(const std::string& path, const std::string& text) {
-    std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
-    bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
-    const int error = errno;
-    if (file && file != stdout) written = std::fclose(file) == 0 && written;
-    if (!written) throw Failure{kDiskFault, fmt::format("{}: {}", path, std::strerror(error))};
+    if (path != "-") {
+        if (const auto why = writeFile(path, text, true)) throw Failure{kDiskFault, *why};
+        return;
+    }
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw Failure{kDiskFault, fmt::format("standard output: {}", std::strerror(errno))};
+}
+
+CLI::Validator within(double lo, double hi) {
+    return CLI::Validator(
+        [lo, hi](std::string& text) -> std::string {
+            double value = 0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            return number && value >= lo && value <= hi ? "" : fmt::format("{}: expected a number from {} to {}", text, lo, hi);
+        },
+        fmt::format("{}..{}", lo, hi));
 }
 
 }  // namespace mb::cli

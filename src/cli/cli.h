@@ -62,6 +62,9 @@ private:
 /// The command line's --set, for the commands that take it.
 void addSettings(CLI::App& app, std::vector<std::string>& settings);
 
+/// A number from lo to hi; not NaN, which CLI::Range lets through.
+CLI::Validator within(double lo, double hi);
+
 /// Text to a file, or to standard output for "-"; a failure carries code 4.
 void writeText(const std::string& path, const std::string& text);
 

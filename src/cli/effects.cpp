@@ -49,15 +49,16 @@ void run(const Options& options, const Common& common) {
     if (options.json) return writeText("-", json.dump() + '\n');
 
     const double pixels = 640.0 * 360.0;
-    fmt::print("{:<12}{:<8}{:>16}  {}\n", "effect", "called", "evaluations/px", "by, or what it would do");
+    std::string table = fmt::format("{:<12}{:<8}{:>16}  {}\n", "effect", "called", "evaluations/px", "by, or what it would do");
     for (const auto& e : json["effects"]) {
         const bool called = e["called"];
-        fmt::print("{:<12}{:<8}{:>16}  {}\n", e["name"].get<std::string>(), called ? "yes" : "no",
-                   e["evaluations"] == 0 ? "" : fmt::format("{:.2f}", e["evaluations"].get<double>() / pixels),
-                   e[called ? "by" : "what"].get<std::string>());
+        table += fmt::format("{:<12}{:<8}{:>16}  {}\n", e["name"].get<std::string>(), called ? "yes" : "no",
+                             e["evaluations"] == 0 ? "" : fmt::format("{:.2f}", e["evaluations"].get<double>() / pixels),
+                             e[called ? "by" : "what"].get<std::string>());
     }
-    fmt::print("{:<20}{:>16.2f}  the picture's own rays\n", "primary", static_cast<double>(evaluations.primary) / pixels);
-    fmt::print("{:<20}{:>16.2f}  and look-ups of what was hit\n", "normals", static_cast<double>(evaluations.normal) / pixels);
+    table += fmt::format("{:<20}{:>16.2f}  the picture's own rays\n", "primary", static_cast<double>(evaluations.primary) / pixels);
+    table += fmt::format("{:<20}{:>16.2f}  and look-ups of what was hit\n", "normals", static_cast<double>(evaluations.normal) / pixels);
+    writeText("-", table);
 }
 
 std::function<void()> make(CLI::App& app, Common& common) {

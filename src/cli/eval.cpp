@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -24,28 +27,41 @@ struct Sample {
     int object = -1;
 };
 
-/// The lines `x,y,z` of a file; blank lines are skipped. A failure carries FILE:LINE:COLUMN.
+/// A line `x,y,z`; or the column, from 1, where it is not one.
+std::size_t parsePoint(const std::string& line, glm::dvec3& p) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [next, error] = std::from_chars(at, end, p[i]);
+        const bool ends_well = i < 2 ? next != end && *next == ',' : next == end;
+        if (error != std::errc{} || !ends_well || !std::isfinite(p[i]) || std::fabs(p[i]) > 1e9)
+            return static_cast<std::size_t>(at - line.data()) + 1;
+        at = next + 1;
+    }
+    return 0;
+}
+
+/// The points of a file of such lines; blank ones are skipped. Its faults are printed as a scene's are, up to as many.
 std::vector<glm::dvec3> readPoints(const std::string& path) {
+    std::error_code error;
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw Failure{kDiskFault, path + ": it cannot be read"};
+    if (!file || std::filesystem::is_directory(path, error))
+        throw Failure{kDiskFault, fmt::format("{}: cannot read: {}", path, file ? "it is a folder" : std::strerror(errno))};
     std::vector<glm::dvec3> points;
+    std::size_t faults = 0;
     std::string line;
-    for (int number = 1; std::getline(file, line); ++number) {
+    for (int number = 1; faults < kMaxFaults && std::getline(file, line); ++number) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty()) continue;
         glm::dvec3 p{0};
-        const char* at = line.data();
-        const char* const end = at + line.size();
-        for (int i = 0; i < 3; ++i) {
-            const auto [next, error] = std::from_chars(at, end, p[i]);
-            const bool ends_well = i < 2 ? next != end && *next == ',' : next == end;
-            if (error != std::errc{} || !ends_well || !std::isfinite(p[i]) || std::fabs(p[i]) > 1e9)
-                throw Failure{kInputFault, fmt::format("{}:{}:{}: error: expected three numbers x,y,z between -1e9 and 1e9", path, number,
-                                                       at - line.data() + 1)};
-            at = next + 1;
+        if (const std::size_t column = parsePoint(line, p)) {
+            const Fault fault{number, static_cast<int>(column), "expected three numbers x,y,z between -1e9 and 1e9"};
+            fmt::print(stderr, "{}\n", describe(fault, path));
+            ++faults;
         }
         points.push_back(p);
     }
+    if (faults > 0) throw Failure{kInputFault, {}};
     return points;
 }
 

@@ -19,12 +19,12 @@ public:
     Film& operator=(const Film&) = delete;
     /// One frame of RGB bytes, the top row first.
     void add(std::span<const std::uint8_t> rgb);
-    /// Waits for ffmpeg to finish the file.
+    /// Waits for ffmpeg and puts the film in its place; without it no file is left or changed.
     void finish();
 
 private:
     [[noreturn]] void fail(const std::string& why);
-    std::string path_;
+    std::string path_, partial_;  // ffmpeg writes beside the film's place; finish() puts it there
     pid_t child_ = -1;
     int pipe_ = -1;
 };

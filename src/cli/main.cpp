@@ -6,12 +6,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 namespace {
 
 using namespace mb::cli;
 
 const Command* const kCommands[] = {&kEdit, &kRender, &kSimulate, &kEval, &kEffects, &kCheck};
+
+/// A word in a command's place that is neither a command nor a file is taken for a mistyped command.
+void refuseUnknown(const std::string& word) {
+    if (word == "accuracy" || word == "bench") throw Failure{kCommandFault, fmt::format("'{}' is not in this version", word)};
+    if (word.find_first_of("./") != std::string::npos || std::filesystem::exists(word)) return;
+    throw Failure{kCommandFault, fmt::format("there is neither a command nor a scene '{}'; marchbox --help lists the commands", word)};
+}
 
 /// Runs what the arguments ask for; with no subcommand, the editor on the scene named, if any.
 int run(int argc, char** argv) {
@@ -26,7 +34,7 @@ int run(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(command->name, command->help);
         sub->footer(std::string("Example:\n  ") + command->example);
         sub->add_flag("--quiet", common.quiet, "say nothing but errors");
-        sub->add_option("--seed", common.seed, "of whatever is random");
+        sub->add_option("--seed", common.seed, "of what is random: where the editor's throws begin");
         runs.push_back(command->make(*sub, common));
         subcommands.push_back(sub);
     }
@@ -34,6 +42,7 @@ int run(int argc, char** argv) {
     // `marchbox SCENE` is `marchbox edit SCENE`.
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto is_command = [&](const std::string& word) { return std::ranges::any_of(kCommands, [&](auto c) { return word == c->name; }); };
+    if (!arguments.empty() && !arguments[0].starts_with('-') && !is_command(arguments[0])) refuseUnknown(arguments[0]);
     if (arguments.empty() || (!arguments[0].starts_with('-') && !is_command(arguments[0]))) arguments.insert(arguments.begin(), kEdit.name);
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its end
     try {

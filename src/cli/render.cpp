@@ -50,12 +50,18 @@ glm::ivec2 parseSize(const std::string& text) {
     throw Failure{kCommandFault, fmt::format("--size {}: expected WxH, as in 640x360", text)};
 }
 
+std::string aovNames() {
+    std::string names;
+    for (const Aov& aov : kAovs) names += fmt::format("{}{}", names.empty() ? "" : ", ", aov.name);
+    return names;
+}
+
 std::vector<const Aov*> parseAovs(const std::vector<std::string>& names) {
     std::vector<const Aov*> wanted;
     for (const std::string& name : names) {
         const auto row = std::ranges::find(kAovs, name, &Aov::name);
         if (row == std::end(kAovs))
-            throw Failure{kCommandFault, fmt::format("--aov {}: there are depth, normal, object, color, steps and state", name)};
+            throw Failure{kCommandFault, fmt::format("--aov {}: there are {}", name, aovNames())};
         wanted.push_back(row);
     }
     return wanted;
@@ -80,7 +86,15 @@ SequenceName parseSequenceName(const std::string& out) {
     const std::string digits = d == std::string::npos ? "x" : out.substr(percent + 1, d - percent - 1);
     if (digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 2 || out.find('%', percent + 1) != std::string::npos)
         throw Failure{kCommandFault, fmt::format("-o {}: a sequence needs a name like NAME_%04d.png, or NAME.mp4", out)};
+    if (!out.ends_with(".png")) throw Failure{kCommandFault, fmt::format("-o {}: pictures are written as .png, films as .mp4", out)};
     return {out.substr(0, percent), out.substr(d + 1), digits.empty() ? 0 : std::stoi(digits)};
+}
+
+/// A still's name: a .png without a frame's place in it, or a device.
+void checkStillName(const std::string& out) {
+    if (out.starts_with("/dev/")) return;
+    if (!out.ends_with(".png")) throw Failure{kCommandFault, fmt::format("-o {}: a picture is written as .png; a film (.mp4) needs --frames", out)};
+    if (out.find('%') != std::string::npos) throw Failure{kCommandFault, fmt::format("-o {}: a sequence needs --frames", out)};
 }
 
 void orInputFault(const std::string& why) {
@@ -130,6 +144,12 @@ nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, d
     return json;
 }
 
+/// Whether the driver can draw a picture of that size; needs a context.
+void checkSize(glm::ivec2 size) {
+    if (const int most = maxTargetSize(); size.x > most || size.y > most)
+        throw Failure{kCommandFault, fmt::format("--size {}x{}: each side must be at most {}", size.x, size.y, most)};
+}
+
 /// Draws once and says how long it took, to the last pixel.
 double drawTimed(Renderer& renderer, const Scene& scene, const Camera& camera, glm::ivec2 size) {
     const auto from = std::chrono::steady_clock::now();
@@ -139,16 +159,18 @@ double drawTimed(Renderer& renderer, const Scene& scene, const Camera& camera, g
 }
 
 void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Common& common) {
+    checkStillName(options.out);
     const std::vector<const Aov*> aovs = parseAovs(options.aov);
     Motion(scene).advanceTo(options.at_s, scene, common);
     const Camera camera = chooseCamera(scene, options.camera);
     const auto context = headlessContext();
+    checkSize(size);
     Renderer renderer;
     const double first_ms = drawTimed(renderer, scene, camera, size);
     const std::vector<glm::vec3> picture = renderer.readPicture();
     orDiskFault(writePng(options.out, size, picture));
     if (const std::size_t undecided = renderer.countUndecided(); undecided > 0 && !common.quiet)
-        fmt::print(stderr, "{}: note: {} of {} pixels are undecided ({:.2g} %); --aov state says which, --set show_undecided=1 shows them\n",
+        fmt::print(stderr, "{}: note: {} of {} pixels hold an undecided ray ({:.3f} %); --set show_undecided=1 shows them\n",
                    options.scene, undecided, picture.size(), 100.0 * static_cast<double>(undecided) / static_cast<double>(picture.size()));
     if (aovs.empty() && options.stats.empty()) return;
 
@@ -165,9 +187,12 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
 void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const Common& common) {
     if (!options.aov.empty() || !options.stats.empty()) throw Failure{kCommandFault, "--aov and --stats are for one picture, without --frames"};
     const bool film_wanted = options.out.ends_with(".mp4");
+    if (film_wanted && options.out.find('%') != std::string::npos)
+        throw Failure{kCommandFault, fmt::format("-o {}: a film is one file, without a frame's place in its name", options.out)};
     const SequenceName name = film_wanted ? SequenceName{} : parseSequenceName(options.out);
     Motion motion(scene);
     const auto context = headlessContext();
+    checkSize(size);
     Renderer renderer;
     std::optional<Film> film;
     if (film_wanted) film.emplace(options.out, size, options.fps);
@@ -190,13 +215,13 @@ std::function<void()> make(CLI::App& app, Common& common) {
     app.add_option("SCENE", o->scene, "scene file")->required();
     app.add_option("-o,--output", o->out, "the picture: OUT.png, or with --frames NAME_%04d.png or NAME.mp4")->required();
     app.add_option("--size", o->size, "WxH pixels")->capture_default_str();
-    app.add_option("--at", o->at_s, "simulate this many seconds first")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--at", o->at_s, "simulate this many seconds first")->check(within(0, 1e6));
     app.add_option("--camera", o->camera, "the scene's camera of that name");
     addSettings(app, o->settings);
-    app.add_option("--aov", o->aov, "also write OUT.NAME.pfm of depth, normal, object, color, steps, state: a list with commas")->delimiter(',');
+    app.add_option("--aov", o->aov, "also write OUT.NAME.pfm of " + aovNames() + ": a list with commas")->delimiter(',');
     app.add_option("--stats", o->stats, "write what it took, as JSON, to this file ('-': standard output)");
-    app.add_option("--frames", o->frames, "how many frames of a sequence or film")->check(CLI::Range(1, 1'000'000));
-    app.add_option("--fps", o->fps, "frames a second")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
+    app.add_option("--frames", o->frames, "how many frames of a sequence or film")->check(within(1, 1e6));
+    app.add_option("--fps", o->fps, "frames a second")->capture_default_str()->check(within(1e-3, 1e4));
     return [o, &common] {
         const glm::ivec2 size = parseSize(o->size);
         const Scene scene = readSceneFile(o->scene, o->settings, common);

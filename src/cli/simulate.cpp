@@ -83,6 +83,9 @@ void run(const Options& options, const Common& common) {
     const auto steps = static_cast<std::uint64_t>(wanted);
 
     PhysicsWorld world(scene);
+    constexpr double kWorthSaying = 1e-3;  // m; less is undone within a few steps
+    if (const double depth = world.maxPenetration(); depth > kWorthSaying && !common.quiet)
+        fmt::print(stderr, "{}: note: bodies overlap something by up to {:.3g} m at the start\n", options.scene, depth);
     Trace trace(options.trace);
     trace.add(world);
     std::vector<double> step_ms;
@@ -111,11 +114,11 @@ void run(const Options& options, const Common& common) {
 std::function<void()> make(CLI::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
     app.add_option("SCENE", options->scene, "scene file")->required();
-    app.add_option("--seconds", options->seconds, "how long")->required()->check(CLI::NonNegativeNumber);
-    app.add_option("--dt", options->dt, "seconds a step, instead of the scene's")->check(CLI::Range(1e-6, 1.0));
-    app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(CLI::Range(1, 1000));
+    app.add_option("--seconds", options->seconds, "how long")->required()->check(within(0, 1e9));
+    app.add_option("--dt", options->dt, "seconds a step, instead of the scene's")->check(within(1e-6, 1));
+    app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(within(1, 1000));
     app.add_option("--trace", options->trace, "a CSV file with a row for each body at each step");
-    app.add_option("--every", options->every, "rows only for every Nth step")->check(CLI::PositiveNumber);
+    app.add_option("--every", options->every, "rows only for every Nth step")->check(within(1, 1e12));
     app.add_flag("--json", options->json, "the answer is JSON with or without this");
     addSettings(app, options->settings);
     return [options, &common] { run(*options, common); };

@@ -4,10 +4,12 @@
 #include "core/scene/keys.h"
 #include "core/scene/text.h"
 #include "core/sdf/raycast.h"
+#include "physics/statics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mb {
 namespace {
@@ -84,6 +86,7 @@ Editor::Editor() {
     ball.name = "ball", ball.material = 1, ball.pos = {0, 1.5, 0}, ball.mass = 1;
     insertObject(floor, kNoParent), insertObject(ball, kNoParent);
     orbit_ = Orbit::around(defaultCamera(scene_));
+    saved_ = scene_;
 }
 
 void Editor::edited(bool moves_bodies) {
@@ -121,9 +124,35 @@ void Editor::insertObject(Object object, int parent) {
         if (scene_.objects[i].parent >= static_cast<int>(at)) ++scene_.objects[i].parent;
 }
 
+/// The height of the topmost surface at x, z that is no further below the point looked at than can be seen; else 0.
+double Editor::surfaceBelow(double x, double z) const {
+    const Tree tree = makeTree(scene_, [&](std::size_t i) { return evaluated(scene_, i); });
+    const double looked_at = orbit_.target.y;
+    double top = looked_at;
+    for (const Leaf& leaf : tree.leaves)
+        if (const double high = bounds(leaf).hi[1]; std::isfinite(high)) top = std::max(top, high);
+    top += 1;
+    const RayEnd end = raycast(tree, {x, top, z}, {0, -1, 0}, top - looked_at + scene_.render.max_distance);
+    return end.state == RayState::hit ? top - end.t : 0;
+}
+
+glm::dvec3 Editor::standing(const Object& draft) const {
+    Scene alone;
+    alone.objects.push_back(draft);
+    Object& o = alone.objects.front();
+    o.pos = {0, 0, 0}, o.parent = kNoParent, o.material = kNoMaterial, o.hidden = false;
+    if (draft.type->isOperator())
+        for (Object& child : firstChildren(asOperator(*draft.type))) child.parent = 0, alone.objects.push_back(std::move(child));
+    const double lowest = firstUnevaluated(alone) ? 0 : bounds(makeTree(alone)).lo[1];
+    if (!std::isfinite(lowest)) return draft.pos;
+    const auto rounded = [](double v, double per_metre) { return std::round(v * per_metre) / per_metre; };
+    const double x = rounded(orbit_.target.x, 1e3), z = rounded(orbit_.target.z, 1e3);
+    return {x, rounded(surfaceBelow(x, z) - lowest, 1e6), z};
+}
+
 ObjectId Editor::addObject(const ShapeType& type, ObjectId parent) {
     Object draft = startingPoint(type);
-    if (!parent) draft.pos = type.name == "plane" ? glm::dvec3{0} : glm::dvec3{0, 1, 0};
+    if (!parent) draft.pos = standing(draft);
     return addObject(draft, parent);
 }
 

@@ -30,7 +30,8 @@ public:
     const Scene& scene() const { return scene_; }
     /// Counts every change of what can be seen, the eye's and the bodies' motion included.
     std::uint64_t revision() const { return revision_; }
-    /// Edits since the file was read or written. The bodies' own motion and the eye's are no edits.
+    /// Edits since the file was read or written. The bodies' own motion and the eye's are no edits; a reset is one where it
+    /// leads away from what was saved.
     bool unsaved() const { return edits_ != saved_edits_; }
     const std::filesystem::path& path() const { return path_; }
     const Message& message() const { return message_; }
@@ -53,7 +54,11 @@ public:
     /// Adds one like the draft, the last child of `parent` or at the end, and selects it. An operator comes with the
     /// children it must have, to start from. Null if it was refused.
     ObjectId addObject(const Object& draft, ObjectId parent = {});
+    /// One of that type as it is at first; at the top level it stands where standing() puts it.
     ObjectId addObject(const ShapeType& type, ObjectId parent = {});
+    /// Where a draft at the top level stands on what is below the point looked at: its lowest point is on the surface there,
+    /// or at y = 0 where there is none. A draft without a lowest point stays where it is.
+    glm::dvec3 standing(const Object& draft) const;
     bool remove(ObjectId id);
     bool removeSelected();
     /// Removes the top-level object that was added last.
@@ -92,6 +97,10 @@ public:
     bool playing() const { return simulation_.playing; }
     void play();
     void pause() { simulation_.playing = false; }
+    /// The bodies as the next step finds them; null where the scene cannot be stepped.
+    const PhysicsWorld* bodies();
+    /// The seed of the next throw; each later one adds 1.
+    void seedThrows(std::uint64_t seed) { simulation_.throws = seed; }
     void step();
     /// Puts the bodies back to where they were before the first step; whatever else was edited since stays.
     void reset();
@@ -106,12 +115,14 @@ private:
     bool refuse(std::string why);
     std::string whyInvalid(Object object) const;
     void insertObject(Object object, int parent);
+    double surfaceBelow(double x, double z) const;
     bool readyToMove();
     void forget(ObjectId id);
 
     Scene scene_;
     std::filesystem::path path_;
     std::uint64_t revision_ = 1, edits_ = 0, saved_edits_ = 0;
+    Scene saved_;  // the scene as it was read or written last
     Message message_;
     ObjectId selected_;
     Orbit orbit_;

@@ -21,7 +21,7 @@ bool Editor::open(const fs::path& path) {
     before_.reset();
     scene_ = std::move(static_cast<ReadResult&>(loaded).scene);
     path_ = path, selected_ = {};
-    saved_edits_ = edits_, ++revision_;
+    saved_ = scene_, saved_edits_ = edits_, ++revision_;
     orbit_ = Orbit::around(defaultCamera(scene_));
     std::string text = fmt::format("Opened {}.", path.filename().string());
     for (const Fault& warning : loaded.warnings) text.append("\n").append(describe(warning, path.filename().string(), "warning"));
@@ -39,7 +39,7 @@ bool Editor::saveAs(const fs::path& path) {
     fs::path full = path;
     if (path != path_ && !full.has_extension()) full += ".txt";
     if (const auto why = saveScene(full, scene_)) return refuse(*why);
-    path_ = full, saved_edits_ = edits_;
+    path_ = full, saved_ = scene_, saved_edits_ = edits_;
     say(false, fmt::format("Saved {}.", full.filename().string()));
     return true;
 }

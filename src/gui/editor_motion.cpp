@@ -18,6 +18,10 @@ void Editor::play() {
     if (readyToMove()) simulation_.playing = true;
 }
 
+const PhysicsWorld* Editor::bodies() {
+    return firstUnevaluated(scene_) ? nullptr : &simulation_.ready(scene_);
+}
+
 void Editor::step() {
     if (!readyToMove()) return;
     simulation_.playing = false;
@@ -61,6 +65,8 @@ void Editor::reset() {
             scene_.objects.push_back(std::move(o));
         }
     }
+    // What was saved meanwhile may be the bodies as they had moved.
+    if (!unsaved() && !sameScene(scene_, saved_)) ++edits_;
 }
 
 /// What is removed by hand does not come back with a reset.

@@ -4,6 +4,8 @@
 #include <GLFW/glfw3.h>
 #include <imgui_internal.h>
 
+#include <cstring>
+
 namespace mb {
 namespace {
 
@@ -33,6 +35,16 @@ void handleMouse(Ui& ui) {
         ui.editor.select({});
 }
 
+/// Closes the floating panel that has the focus; says whether there was one.
+bool closeFocused(Ui& ui) {
+    const ImGuiWindow* window = ImGui::GetCurrentContext()->NavWindow;
+    if (!window) return false;
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (ui.open[i] && entries()[i].place == Place::floating && std::strcmp(entries()[i].name, window->RootWindow->Name) == 0)
+            return ui.open[i] = false, true;
+    return false;
+}
+
 }  // namespace
 
 void handleInput(Ui& ui) {
@@ -46,6 +58,7 @@ void handleInput(Ui& ui) {
             if (press.key == GLFW_KEY_ESCAPE) ImGui::ClosePopupToLevel(0, true);
             continue;
         }
+        if (press.key == GLFW_KEY_ESCAPE && !press.ctrl && !press.repeated && closeFocused(ui)) continue;
         for (std::size_t i = 0; i < entries().size(); ++i) {
             const Entry& entry = entries()[i];
             if (entry.shortcut.key != press.key || entry.shortcut.ctrl != press.ctrl) continue;

@@ -47,7 +47,7 @@ void drawLine(Ui& ui, const TreeLine& line) {
     }
     const std::string name = label(scene, line.index);
     if (o.hidden) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    if (ImGui::Selectable(fmt::format("{}##line", name).c_str(), ui.editor.selected() == o.id)) ui.editor.select(o.id);
+    if (ImGui::Selectable(fmt::format("{}##line", name).c_str(), ui.editor.selected() == o.id)) ui.editor.select(o.id), ui.listed = o.id;
     ui::note(name);
     if (o.hidden) ImGui::PopStyleColor();
 
@@ -60,18 +60,34 @@ void drawLine(Ui& ui, const TreeLine& line) {
     ImGui::PopID();
 }
 
-/// Every type there is, in two groups. Returns the one chosen.
+/// Unfolds what hides a selection made elsewhere, and scrolls to it.
+void followSelection(Ui& ui) {
+    if (ui.listed == ui.editor.selected()) return;
+    ui.listed = ui.editor.selected();
+    const Scene& scene = ui.editor.scene();
+    const std::optional<std::size_t> selected = ui.editor.selection();
+    if (!selected) return;
+    for (int i = scene.objects[*selected].parent; i != kNoParent; i = scene.objects[static_cast<std::size_t>(i)].parent)
+        ui.folded.erase(scene.objects[static_cast<std::size_t>(i)].id.value);
+    const std::vector<TreeLine> all = lines(ui);
+    const auto line = std::ranges::find(all, *selected, &TreeLine::index);
+    const float high = ImGui::GetTextLineHeightWithSpacing(), y = high * static_cast<float>(line - all.begin()), room = ImGui::GetWindowHeight();
+    if (y < ImGui::GetScrollY() || y + high > ImGui::GetScrollY() + room) ImGui::SetScrollY(std::max(y - room / 2, 0.0f));
+}
+
+/// Every type that can be drawn, in two groups. Returns the one chosen.
 const ShapeType* typeList(const ShapeType* now) {
     const ShapeType* chosen = nullptr;
-    const auto line = [&](const ShapeType& type, bool drawn) {
+    const auto line = [&](const ShapeType& type) {
         if (ui::selectable(std::string(type.name).c_str(), &type == now)) chosen = &type;
-        ui::tip(fmt::format("{}{}", type.tip, drawn ? "" : ". Kept and saved, but this version cannot draw it yet."));
+        ui::tip(type.tip);
     };
     ImGui::TextDisabled("shapes");
-    for (const Primitive& p : primitives()) line(p, true);
+    for (const Primitive& p : primitives()) line(p);
     ImGui::Separator();
     ImGui::TextDisabled("operators on shapes");
-    for (const Operator& o : operators()) line(o, o.evaluated());
+    for (const Operator& o : operators())
+        if (o.evaluated()) line(o);
     return chosen;
 }
 
@@ -84,9 +100,9 @@ std::optional<std::size_t> operatorAtHand(const Editor& editor) {
     return o.parent == kNoParent ? std::nullopt : std::optional<std::size_t>(o.parent);
 }
 
-/// The keys every object has; a body's further ones only where there is a body.
-bool generalFields(Object& o, bool body_keys) {
-    bool changed = ui::fields<Object>(o, [](const Key<Object>& key) { return !key.body && key.name != "name"; });
+/// The keys every object has, its place if asked for; a body's further ones only where there is a body.
+bool generalFields(Object& o, bool place, bool body_keys) {
+    bool changed = ui::fields<Object>(o, [&](const Key<Object>& key) { return !key.body && key.name != "name" && (place || key.name != "pos"); });
     if (!body_keys) return changed;
     ui::heading("Body");
     const bool body = o.isBody();
@@ -128,6 +144,7 @@ void drawObjects(Ui& ui) {
 
     ImGui::BeginChild("tree");
     if (editor.scene().objects.empty()) ui::remark("No objects. Add one with the button above.");
+    followSelection(ui);
     const std::vector<TreeLine> all = lines(ui);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(all.size()));
@@ -159,7 +176,13 @@ void drawAddObject(Ui& ui) {
 
     const std::optional<std::size_t> under = operatorAtHand(editor);
     const bool below = under && ui.draft_below;
-    generalFields(draft, !below);
+    if (!below) {
+        ImGui::Checkbox("stands on what is below the view###stands", &ui.draft_stands);
+        ui::note("stands");
+        ui::tip("else it comes where its pos says");
+    }
+    const bool stands = !below && ui.draft_stands;
+    generalFields(draft, !stands, !below);
     ImGui::Separator();
     if (under) {
         ImGui::Checkbox(fmt::format("put it under {}###below", label(editor.scene(), *under)).c_str(), &ui.draft_below);
@@ -168,6 +191,7 @@ void drawAddObject(Ui& ui) {
     if (!ui::button("Create", nullptr, -1)) return;
     Object made = draft;
     if (made.name.empty()) made.name = draft.type->name;
+    if (stands) made.pos = editor.standing(made);
     if (editor.addObject(made, below ? editor.scene().objects[*under].id : ObjectId{})) draft.name.clear(), ui.show("Attributes");
 }
 
@@ -185,7 +209,7 @@ void drawAttributes(Ui& ui) {
     ui::heading(fmt::format("Shape: {}", o.type->name).c_str());
     changed |= ui::parameters(*o.type, o.numbers);
     ui::heading("Place");
-    changed |= generalFields(o, o.parent == kNoParent);
+    changed |= generalFields(o, true, o.parent == kNoParent);
     if (changed) editor.setObject(*index, o);
     if (o.type->isOperator()) {
         ImGui::Separator();

@@ -15,11 +15,18 @@ void row(std::initializer_list<std::string> cells) {
         ImGui::TextUnformatted(cell.c_str());
     }
 }
-std::string triple(glm::dvec3 v) { return fmt::format("{:8.3f} {:8.3f} {:8.3f}", v.x, v.y, v.z); }
+std::string triple(glm::dvec3 v, int digits) { return fmt::format("{0:{4}.{3}f} {1:{4}.{3}f} {2:{4}.{3}f}", v.x, v.y, v.z, digits, digits + 4); }
 
-void drawTotals(const Editor& editor) {
-    const PhysicsWorld* world = editor.simulation().world();
-    if (!world) return ui::remark("Not moving yet: play, step or throw to see the totals.");
+/// What a body weighs in the simulation, whether the scene gives its mass or its density.
+std::string massText(const PhysicsWorld* world, const Object& o) {
+    if (world)
+        for (const Body& b : world->bodies())
+            if (b.object == o.id) return fmt::format("{:.4g} kg", b.mass());
+    return o.mass > 0 ? fmt::format("{:.4g} kg", o.mass) : std::string("does not move");
+}
+
+void drawTotals(const Editor& editor, const PhysicsWorld* world) {
+    if (!world) return ui::remark(whyUnevaluated(editor.scene()));
     const Energy energy = world->energy();
     ImGui::Text("step %llu   awake %d of %zu   contacts %d   removed %d", static_cast<unsigned long long>(editor.simulation().steps()),
                 world->awake(), world->bodies().size(), world->contacts(), world->removed());
@@ -40,15 +47,14 @@ void drawControls(Ui&) {
 
 void drawDebug(Ui& ui) {
     const Scene& scene = ui.editor.scene();
-    drawTotals(ui.editor);
+    const PhysicsWorld* world = ui.editor.bodies();
+    drawTotals(ui.editor, world);
     std::vector<std::size_t> bodies;
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         if (scene.objects[i].isBody()) bodies.push_back(i);
     if (bodies.empty()) return ui::remark("The scene has no body: no object has a mass or a density.");
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit |
-                                  ImGuiTableFlags_BordersInnerV;
-    if (!ImGui::BeginTable("bodies", 6, flags)) return;
-    ImGui::TableSetupScrollFreeze(1, 1);
+    // No scrolling of its own: Dear ImGui 1.86 asserts on a scrolling table that its window leaves no room for.
+    if (!ImGui::BeginTable("bodies", 6, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerV)) return;
     for (const char* head : {"body", "position, m", "rotation, degrees", "velocity, m/s", "spin, rad/s", "mass"}) ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
     ImGuiListClipper clipper;
@@ -56,8 +62,8 @@ void drawDebug(Ui& ui) {
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const Object& o = scene.objects[bodies[static_cast<std::size_t>(i)]];
-            row({label(scene, bodies[static_cast<std::size_t>(i)]), triple(o.pos), triple(o.rot), triple(o.vel), triple(o.spin),
-                 o.mass > 0 ? fmt::format("{:.4g} kg", o.mass) : fmt::format("{:.4g} kg/m³", o.density)});
+            row({label(scene, bodies[static_cast<std::size_t>(i)]), triple(o.pos, 3), triple(o.rot, 1), triple(o.vel, 2),
+                 triple(o.spin, 2), massText(world, o)});
         }
     ImGui::EndTable();
 }

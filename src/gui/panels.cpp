@@ -25,7 +25,8 @@ const Entry kEntries[] = {
      .draw = drawOpen, .run = askOpen, .width = 380},
     {.menu = "File", .name = "Save", .shortcut = {GLFW_KEY_S, true, "Ctrl+S"}, .tip = "to the scene's file", .run = save},
     {.menu = "File", .name = "Save as", .tip = "to a file of another name", .draw = drawSaveAs, .run = askSaveAs, .width = 380},
-    {.menu = "File", .name = "Exit", .shortcut = {GLFW_KEY_ESCAPE, false, "Esc"}, .tip = "asks before it drops unsaved work", .run = exit},
+    {.menu = "File", .name = "Exit", .shortcut = {GLFW_KEY_ESCAPE, false, "Esc"}, .tip = "asks about unsaved work; Esc closes a panel in front first",
+     .run = exit},
 
     {.menu = "Edit", .name = "Objects", .tip = "the tree of all objects", .draw = drawObjects, .place = Place::column_top, .at_start = true},
     {.menu = "Edit", .name = "Attributes", .tip = "of the selected object", .draw = drawAttributes, .place = Place::column_bottom,
@@ -51,7 +52,7 @@ const Entry kEntries[] = {
 
     {.menu = "Settings", .name = "Controls", .shortcut = {GLFW_KEY_F1, false, "F1"}, .tip = "what the mouse and the keys do",
      .draw = drawControls, .width = 430},
-    {.menu = "Settings", .name = "Debug", .tip = "the live state of every body", .draw = drawDebug, .width = 560, .height = 320},
+    {.menu = "Settings", .name = "Debug", .tip = "the live state of every body", .draw = drawDebug, .width = 740, .height = 320},
     {.menu = "Settings", .name = "Constants", .tip = "gravity, restitution, friction, and the steps of time", .draw = drawConstants},
     {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
 };
@@ -80,18 +81,32 @@ void placeDocked(const Ui& ui, const Entry& entry) {
     ImGui::SetNextWindowSize({std::max(screen.x - left, 1.0f), std::max(h, 1.0f)});
 }
 
+/// A cascade: each floating panel of the table starts below the title of the one before it.
 void placeFloating(const Entry& entry, int order) {
-    const float scale = ImGui::GetFontSize() / 15, step = ImGui::GetFrameHeight();
-    ImGui::SetNextWindowPos({16 + step * static_cast<float>(order % 8), 2 * step + step * static_cast<float>(order % 8)}, ImGuiCond_FirstUseEver);
+    const float scale = ImGui::GetFontSize() / 15, step = ImGui::GetFrameHeight(), by = static_cast<float>(order);
+    ImGui::SetNextWindowPos({16 + step * by, 1.5f * step + 1.25f * step * by}, ImGuiCond_FirstUseEver);
     if (entry.height > 0) ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
     const float most = std::max(ImGui::GetIO().DisplaySize.y - 4 * step, 100.0f);
     if (entry.height == 0) ImGui::SetNextWindowSizeConstraints({entry.width * scale, 0}, {entry.width * scale * 2, most});
 }
 
+/// How many floating panels stand before that row of the table.
+int floatingBefore(std::size_t row) {
+    return static_cast<int>(std::ranges::count_if(entries().first(row), [](const Entry& e) { return e.draw && e.place == Place::floating; }));
+}
+
+/// A window that was made small and large again leaves no panel beyond its edges, nor does one that grew.
+void keepInside(const Ui& ui) {
+    const ImVec2 at = ImGui::GetWindowPos(), top = ui.picture_corner;
+    const float lowest = top.y + ui.picture_size.y - ImGui::GetWindowHeight();
+    const ImVec2 inside{std::max(at.x, 0.0f), std::max(std::min(at.y, lowest), top.y)};
+    if (inside.x != at.x || inside.y != at.y) ImGui::SetWindowPos(inside);
+}
+
 void drawPanel(Ui& ui, const Entry& entry, std::size_t i) {
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoSavedSettings;
     if (entry.place == Place::floating) {
-        placeFloating(entry, static_cast<int>(i));
+        placeFloating(entry, floatingBefore(i));
         if (entry.height == 0) flags |= ImGuiWindowFlags_AlwaysAutoResize;
     } else {
         placeDocked(ui, entry);
@@ -100,9 +115,7 @@ void drawPanel(Ui& ui, const Entry& entry, std::size_t i) {
     bool stays = true;
     ui::seen_panel = entry.name;
     const bool shown = ImGui::Begin(entry.name, &stays, flags);
-    // A window that was made small and large again leaves no panel beyond its edges.
-    if (const ImVec2 at = ImGui::GetWindowPos(); entry.place == Place::floating && (at.x < 0 || at.y < ui.picture_corner.y))
-        ImGui::SetWindowPos({std::max(at.x, 0.0f), std::max(at.y, ui.picture_corner.y)});
+    if (entry.place == Place::floating) keepInside(ui);
     if (shown) entry.draw(ui);
     ImGui::End();
     if (!stays) ui.open[i] = false;

@@ -47,12 +47,14 @@ struct Ui {
     // What the panels remember from frame to frame.
     Object draft;
     bool draft_below = false;          // the draft goes under the selected operator
+    bool draft_stands = true;          // else it comes where its pos says
     Material new_material{.name = "material"};
     Light new_light{.name = "light", .pos = {0, 5, 0}};
     int shown_material = 0, shown_light = 0;
     std::vector<std::string> files;
     std::string file, file_name;
     std::set<std::uint32_t> folded;    // operators whose children the tree hides
+    ObjectId listed;                   // the selection the tree has last shown
     bool attributes_to_top = false;
     std::function<void()> after;       // what waits for an answer about unsaved work
     std::string save_name;             // typed into that question

@@ -38,7 +38,7 @@ void Simulation::step(Scene& scene) {
 }
 
 void Simulation::throwAbout(Scene& scene) {
-    ready(scene).throwAbout(++throws, kThrowSpeed);
+    ready(scene).throwAbout(throws++, kThrowSpeed);
     world_->writeTo(scene);
 }
 

@@ -15,13 +15,15 @@ public:
     static constexpr double kThrowSpeed = 6;       // m/s
 
     bool playing = false;
-    std::uint64_t throws = 0;                     // seeds of the next throw: the same session throws the same way
+    std::uint64_t throws = 1;                     // the next throw's seed: the same session throws the same way
 
     /// Makes as many steps as `seconds` of wall time hold and writes the bodies back; says whether any was made.
     bool advance(Scene& scene, double seconds);
     /// Makes one step.
     void step(Scene& scene);
     void throwAbout(Scene& scene);
+    /// The bodies, made from the scene if they are not yet.
+    PhysicsWorld& ready(const Scene& scene);
     /// The scene's bodies were changed by hand: the next step starts from the scene as it then is.
     void rebuild() { world_.reset(); }
     void stop() { playing = false, owed_ = 0, steps_ = 0, ratio_ = 1, world_.reset(); }
@@ -32,7 +34,6 @@ public:
     const PhysicsWorld* world() const { return world_ ? &*world_ : nullptr; }
 
 private:
-    PhysicsWorld& ready(const Scene& scene);
     std::optional<PhysicsWorld> world_;
     double owed_ = 0, ratio_ = 1;
     std::uint64_t steps_ = 0;

@@ -169,6 +169,7 @@ void loop(GLFWwindow* window, Editor& editor, const EditorOptions& options) {
 
 int runEditor(const EditorOptions& options) {
     Editor editor;
+    editor.seedThrows(options.seed);
     if (!options.scene.empty()) {
         const LoadResult loaded = loadScene(options.scene);
         for (const Fault& fault : loaded.faults) std::fputs((describe(fault, options.scene) + "\n").c_str(), stderr);

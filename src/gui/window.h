@@ -1,5 +1,6 @@
 #pragma once
 // The editor in a window of its own: GLFW, OpenGL 3.3, Dear ImGui's back ends, and the loop.
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -10,6 +11,7 @@ struct Ui;
 struct EditorOptions {
     std::string scene;                            // opened at the start; empty: a new scene
     int width = 1280, height = 800;               // of the window, if the screen is as large
+    std::uint64_t seed = 1;                       // where the throws begin
     std::function<void(const Ui&)> after_frame;   // called when each frame is on the screen
 };
 

@@ -42,6 +42,12 @@ Ran run(const Scratch& scratch, const std::string& arguments) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
 }
 
+/// The code of a command whose standard output goes there.
+int runInto(const std::string& out, const std::string& arguments) {
+    const int status = std::system((std::string(MARCHBOX_BINARY) + " " + arguments + " >" + out + " 2>/dev/null </dev/null").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 const std::string kScene = "marchbox 1\nworld restitution:0.5\nlight pos:3,5,4\nobject name:floor type:plane\n"
                            "object name:ball type:sphere pos:0,2.5,0 radius:0.5 mass:1\ncamera name:front eye:0,2,6\ncamera name:side eye:6,1,0 target:0,1,0\n";
 std::string write(const Scratch& scratch, const std::string& name, const std::string& text) {
@@ -86,7 +92,10 @@ TEST_CASE("help and version; a command line at fault ends with 2") {
          {std::string("render"), "render " + scene, "render " + scene + " -o x.png --size 0x9", "render " + scene + " -o x.png --size 9",
           "render " + scene + " -o x.png --set nonsense", "render " + scene + " -o x.png --set march_step=9",
           "render " + scene + " -o x.png --set march_steps=0", "render " + scene + " -o x.png --aov deep", "render " + scene + " -o x.png --frames 2",
-          "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
+          "render " + scene + " -o x.mp4", "render " + scene + " -o x.jpg", "render " + scene + " -o -",
+          "render " + scene + " -o x_%04d.png", "render " + scene + " -o x_%04d.mp4 --frames 2", "render " + scene + " -o x.png --at nan",
+          "render " + scene + " -o x.png --size 99999x9", "simulate " + scene + " --seconds nan", "simulate " + scene + " --seconds 1 --dt nan",
+          std::string("bench"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
           std::string("--nonsense")}) {
         CAPTURE(arguments);
         const Ran ran = run(scratch, arguments);
@@ -114,7 +123,22 @@ TEST_CASE("an input at fault ends with 1 and its places; a file at fault ends wi
     const std::string scene = write(scratch, "s.txt", kScene);
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "no/such/folder.png").code == 4);
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "x.png" + " --camera nobody").code == 1);
-    CHECK(run(scratch, "render " + scene + " --size 99999x9 -o " + scratch / "x.png").code == 1);
+    CHECK(run(scratch, "eval " + scene + " --points " + scratch.path.string()).code == 4);
+    // A full device is an error and stays a device; a link leads to its file; a file its owner made read-only stays.
+    for (const char* command : {"check ", "effects ", "simulate --seconds 0.1 "}) CHECK(runInto("/dev/full", command + scene) == 4);
+    CHECK(run(scratch, "render " + scene + " --size 16x9 -o /dev/full").code == 4);
+    CHECK(fs::is_character_file("/dev/full"));
+    fs::create_symlink("target.png", scratch / "link.png");
+    CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "link.png").code == 0);
+    CHECK(fs::is_symlink(scratch / "link.png"));
+    CHECK(fs::is_regular_file(scratch / "target.png"));
+    write(scratch, "kept.png", "mine");
+    fs::permissions(scratch / "kept.png", fs::perms::owner_read);
+    CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "kept.png").code == 4);
+    CHECK(read(scratch / "kept.png") == "mine");
+    const std::string greedy = write(scratch, "greedy.txt", kScene + "material name:m Kr:1\nobject type:sphere material:m radius:1\nrender reflections:64 march_steps:8192\n");
+    CHECK(run(scratch, "check " + greedy).err.starts_with(greedy + ":10:1: error: "));
+    CHECK(run(scratch, "check " + write(scratch, "plane.txt", "marchbox 1\nobject name:p type:plane mass:1\n")).err.find("is infinite") != std::string::npos);
     CHECK(run(scratch, "check --quiet " + scene).out == "");
     CHECK(run(scratch, "check " + scene + " " + bad).code == 1);
 }
@@ -244,7 +268,7 @@ TEST_CASE("eval agrees with itself on both processors") {
     const std::string bad = write(scratch, "bad.csv", "1,2,3\n1,2\n");
     const Ran ran = run(scratch, "eval " + scene + " --points " + bad);
     CHECK(ran.code == 1);
-    CHECK(ran.err.find(bad + ":2:") != std::string::npos);
+    CHECK(ran.err.starts_with(bad + ":2:3: error: "));
 }
 
 TEST_CASE("effects says what was called for, by what") {

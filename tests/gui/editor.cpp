@@ -1,6 +1,7 @@
 // The editor without any panel: its commands, and what they keep true.
 #include "core/scene/keys.h"
 #include "core/scene/text.h"
+#include "core/sdf/tree.h"
 #include "gui/editor.h"
 
 #include <doctest/doctest.h>
@@ -248,6 +249,66 @@ TEST_CASE("a body that leaves the world comes back with a reset, one that was re
     CHECK(editor.scene().objects.size() == 2);
     CHECK(findObject(editor.scene(), away));
     checkSavable(editor);
+}
+
+TEST_CASE("a reset away from what was saved is an edit, one back to it is none") {
+    const Folder folder;
+    Editor editor;
+    REQUIRE(editor.saveAs(folder.path / "ball"));
+    const auto move = [&] {
+        editor.throwAbout();
+        for (int i = 0; i < 10; ++i) editor.advance(1.0 / 60);
+        editor.pause();
+    };
+    move(), editor.reset();
+    CHECK_FALSE(editor.unsaved());
+    move();
+    REQUIRE(editor.save());
+    CHECK_FALSE(editor.unsaved());
+    editor.reset();
+    CHECK(editor.unsaved());
+    REQUIRE(editor.save());
+    CHECK_FALSE(editor.unsaved());
+    CHECK(sameScene(loadScene(editor.path()).scene, editor.scene()));
+}
+
+TEST_CASE("what is added stands on what is below the point looked at") {
+    Editor editor;
+    const auto draft = [&](const char* name) {
+        Object o;
+        o.type = &type(name), o.numbers = initialNumbers(type(name));
+        return o;
+    };
+    const auto lowest = [&](ObjectId id) {
+        const std::size_t index = *findObject(editor.scene(), id);
+        return bounds(makeTree(editor.scene(), [&](std::size_t i) { return i == index; })).lo[1];
+    };
+    editor.lookThrough({.name = "", .eye = {4, 3, 6}, .target = {2, 1, -1}});
+    const ObjectId ball = editor.addObject(type("sphere"));
+    CHECK(editor.scene().objects.back().pos.x == 2);
+    CHECK(editor.scene().objects.back().pos.z == -1);
+    CHECK(std::abs(lowest(ball)) < 1e-5);  // on the floor
+    const double top = 2 * editor.scene().objects.back().numbers[0];
+    for (const char* name : {"box", "torus", "union"}) {
+        const glm::dvec3 pos = editor.standing(draft(name));
+        const ObjectId id = editor.addObject(type(name));
+        CHECK(editor.scene().objects[*findObject(editor.scene(), id)].pos == pos);
+        CHECK(lowest(id) == doctest::Approx(top).epsilon(1e-5));
+        editor.remove(id);
+    }
+    editor.clear();
+    CHECK(std::abs(lowest(editor.addObject(type("box")))) < 1e-5);  // on nothing
+    CHECK(editor.standing(draft("plane")) == glm::dvec3{0});
+}
+
+TEST_CASE("the throws begin with the seed") {
+    Editor a, b, c;
+    a.seedThrows(7), b.seedThrows(7), c.seedThrows(8);
+    for (Editor* e : {&a, &b, &c}) e->throwAbout();
+    CHECK(sameScene(a.scene(), b.scene()));
+    CHECK_FALSE(sameScene(a.scene(), c.scene()));
+    a.throwAbout();
+    CHECK(a.scene().objects[1].vel == c.scene().objects[1].vel);
 }
 
 TEST_CASE("throwing is the same in every session, and a slow machine drops time instead of freezing") {

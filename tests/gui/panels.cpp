@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <imgui_internal.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -49,6 +50,8 @@ TEST_CASE("Add object: a type from the list, sliders, Create") {
     h.click("Add object", "type");
     h.click("Add object", "torus");
     h.drag("Add object", "major", 0.3f, 0.6f);
+    CHECK_FALSE(h.find("Add object", "pos.y"));
+    h.click("Add object", "stands");
     h.drag("Add object", "pos.y", 0.5f, 0.7f);
     h.click("Add object", "Create");
     const Object& made = sceneOf(h).objects.back();
@@ -60,6 +63,41 @@ TEST_CASE("Add object: a type from the list, sliders, Create") {
     CHECK(h.editor.unsaved());
     h.click("Add object", "Create");
     CHECK(sceneOf(h).objects.back().name == "torus2");
+}
+
+TEST_CASE("only what can be drawn is offered") {
+    Hands h;
+    h.ui.show("Add object"), h.frame(2);
+    h.click("Add object", "type");
+    for (const Operator& o : operators()) {
+        CAPTURE(o.name);
+        CHECK((h.find("Add object", std::string(o.name)) != nullptr) == o.evaluated());
+    }
+}
+
+TEST_CASE("floating panels open side by side, and Esc closes the one in front") {
+    Hands h;
+    std::set<std::pair<float, float>> places;
+    for (const Entry& entry : entries()) {
+        if (!entry.draw || entry.place != Place::floating) continue;
+        CAPTURE(entry.name);
+        h.menu(entry.menu, entry.name), h.frame(2);
+        const ImGuiWindow* window = ImGui::FindWindowByName(entry.name);
+        REQUIRE(window);
+        CHECK(places.insert({window->Pos.x, window->Pos.y}).second);
+        CHECK(window->Pos.x + window->Size.x <= h.ui.picture_size.x);
+        h.key(GLFW_KEY_ESCAPE);
+        CHECK_FALSE(h.ui.isOpen(entry.name));
+        CHECK_FALSE(h.ui.quit);
+    }
+    h.menu("Edit", "Camera"), h.menu("Edit", "Lights");
+    h.key(GLFW_KEY_ESCAPE);
+    CHECK_FALSE(h.ui.isOpen("Lights"));
+    CHECK(h.ui.isOpen("Camera"));
+    h.clickAt({700, 740});  // on the picture: no panel has the focus
+    h.key(GLFW_KEY_ESCAPE);
+    CHECK(h.ui.quit);
+    CHECK(h.ui.isOpen("Camera"));
 }
 
 TEST_CASE("an operator takes a child through its attributes") {
@@ -137,9 +175,19 @@ TEST_CASE("ten thousand objects, all of one name's stem, are listed") {
     Object ball;
     ball.type = findShapeType("sphere"), ball.numbers = initialNumbers(*ball.type);
     for (int i = 0; i < 10'000; ++i) h.editor.addObject(ball);
-    h.frame(2);
-    h.click("Objects", "ball");
-    CHECK(sceneOf(h).objects[1].id == h.editor.selected());
+    h.frame(3);
+    const auto shows = [&](const std::string& label) {
+        const ui::Seen* seen = h.find("Objects", label);
+        return seen && seen->visible;
+    };
+    CHECK(shows("sphere 10001"));  // the one added last is selected
+    CHECK_FALSE(shows("ball"));
+    h.editor.select(sceneOf(h).objects[5000].id), h.frame(3);
+    CHECK(shows("sphere 5000"));
+    h.editor.select(sceneOf(h).objects[1].id), h.frame(3);
+    CHECK(shows("ball"));
+    h.click("Objects", "floor");
+    CHECK(sceneOf(h).objects[0].id == h.editor.selected());
 }
 
 TEST_CASE("Materials: the list, its sliders, and another one") {

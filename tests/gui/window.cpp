@@ -150,12 +150,14 @@ TEST_CASE("in the real window: add an object through the menus, save, close, com
     REQUIRE(running.find("Objects/sphere"));
     Running::xdo("key ctrl+s");
     for (int i = 0; i < 200 && contents(file) == before; ++i) rest(50);
+    Running::xdo("key Escape");  // closes the panel in front
+    rest(500);
     Running::xdo("key Escape");
     CHECK(running.child.wait() == 0);
 
     Object sphere;
     sphere.type = findShapeType("sphere"), sphere.numbers = initialNumbers(*sphere.type);
-    sphere.name = "sphere", sphere.pos = {0, 1, 0};
+    sphere.name = "sphere", sphere.pos = expected.standing(sphere);
     REQUIRE(expected.addObject(sphere));
     CHECK(contents(file) == writeScene(expected.scene()));
 

@@ -16,7 +16,7 @@ template <class F> std::string firstMaterial(const Scene& scene, const Tree& tre
 }
 
 std::string lightCalls(const Scene& scene, const Tree& tree) {
-    return scene.lights.empty() || tree.leaves.empty() ? "" : fmt::format("{} light record(s)", scene.lights.size());
+    return scene.lights.empty() || tree.leaves.empty() ? "" : fmt::format("{} light record{}", scene.lights.size(), scene.lights.size() == 1 ? "" : "s");
 }
 std::string shadowCalls(const Scene& scene, const Tree& tree) {
     if (lightCalls(scene, tree).empty() || scene.render.shadow_steps == 0) return {};

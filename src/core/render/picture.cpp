@@ -1,46 +1,26 @@
 #include "core/render/picture.h"
 
+#include "core/scene/file.h"
+
 #include <fmt/format.h>
 #include <png.h>
 
 #include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <optional>
 
 namespace mb {
 namespace {
 
-struct CloseFile {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-/// Writes through `fill` into a file beside `path` and renames it, so that a failure leaves no half of a picture.
-template <class F> std::string writeWhole(const std::string& path, F fill) {
-    const std::string partial = path + ".part";
-    File file(std::fopen(partial.c_str(), "wb"));
-    if (!file) return fmt::format("{}: {}", path, std::strerror(errno));
-    bool written = fill(file.get()) && std::fflush(file.get()) == 0;
-    const int error = errno;
-    written = std::fclose(file.release()) == 0 && written;
-    if (written && std::rename(partial.c_str(), path.c_str()) == 0) return {};
-    const std::string why = fmt::format("{}: {}", path, std::strerror(written ? errno : error));
-    std::remove(partial.c_str());
-    return why;
-}
+std::string orNothing(std::optional<std::string> why) { return why.value_or(std::string()); }
 
 std::string writePfmBytes(const std::string& path, glm::ivec2 size, const char* kind, std::size_t channels, const float* pixels) {
     static_assert(std::endian::native == std::endian::little, "the file says so");
-    return writeWhole(path, [&](std::FILE* file) {
-        if (std::fprintf(file, "%s\n%d %d\n-1.0\n", kind, size.x, size.y) < 0) return false;
-        const std::size_t row = static_cast<std::size_t>(size.x) * channels;
-        for (int y = size.y - 1; y >= 0; --y)  // a PFM counts its rows from the bottom
-            if (std::fwrite(pixels + static_cast<std::size_t>(y) * row, sizeof(float), row, file) != row) return false;
-        return true;
-    });
+    std::string bytes = fmt::format("{}\n{} {}\n-1.0\n", kind, size.x, size.y);
+    const std::size_t row = static_cast<std::size_t>(size.x) * channels;
+    for (int y = size.y - 1; y >= 0; --y)  // a PFM counts its rows from the bottom
+        bytes.append(reinterpret_cast<const char*>(pixels + static_cast<std::size_t>(y) * row), row * sizeof(float));
+    return orNothing(writeFile(path, bytes, true));
 }
 
 }  // namespace
@@ -67,7 +47,10 @@ std::string writePng(const std::string& path, glm::ivec2 size, std::span<const g
     image.version = PNG_IMAGE_VERSION;
     image.width = static_cast<png_uint_32>(size.x), image.height = static_cast<png_uint_32>(size.y);
     image.format = PNG_FORMAT_RGB;
-    return writeWhole(path, [&](std::FILE* file) { return png_image_write_to_stdio(&image, file, 0, bytes.data(), 0, nullptr) != 0; });
+    png_alloc_size_t room = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string file(room, '\0');
+    if (!png_image_write_to_memory(&image, file.data(), &room, 0, bytes.data(), 0, nullptr)) return fmt::format("{}: {}", path, image.message);
+    return orNothing(writeFile(path, std::string_view(file).substr(0, room), true));
 }
 
 std::string writePfm(const std::string& path, glm::ivec2 size, std::span<const float> channel) {

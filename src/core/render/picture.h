@@ -15,8 +15,8 @@ std::uint8_t srgb8(float linear);
 /// RGB bytes of linear pixels.
 std::vector<std::uint8_t> encodeSrgb(std::span<const glm::vec3> linear);
 
-/// Each writes a whole file or leaves none of that name changed, and returns what went wrong, or nothing. The top row
-/// comes first in the pixels given.
+/// Each writes a whole file or leaves the old one as it was (core/scene/file.h), and returns what went wrong, or nothing.
+/// The top row comes first in the pixels given.
 std::string writePng(const std::string& path, glm::ivec2 size, std::span<const glm::vec3> linear);
 std::string writePfm(const std::string& path, glm::ivec2 size, std::span<const float> channel);
 std::string writePfm(const std::string& path, glm::ivec2 size, std::span<const glm::vec3> channels);

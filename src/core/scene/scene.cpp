@@ -38,7 +38,7 @@ template <class Record> bool sameRecords(const std::vector<Record>& a, const std
 }  // namespace
 
 bool sameScene(const Scene& a, const Scene& b) {
-    return sameRecord(a.world, b.world) && sameRecord(a.render, b.render) && sameRecord(a.physics, b.physics) &&
+    return a.comment == b.comment && sameRecord(a.world, b.world) && sameRecord(a.render, b.render) && sameRecord(a.physics, b.physics) &&
            sameRecords(a.cameras, b.cameras) && sameRecords(a.lights, b.lights) && sameRecords(a.materials, b.materials) &&
            sameRecords(a.objects, b.objects);
 }

@@ -91,6 +91,7 @@ struct Object {
 };
 
 struct Scene {
+    std::string comment;             // the comment at the file's head: lines that begin with '#', each with its line end
     World world;
     RenderKnobs render;
     PhysicsKnobs physics;

@@ -1,6 +1,7 @@
 #pragma once
 // Scenes as text: reading, writing, files, and one knob at a time. The format has version 1; the form before it is read
-// too and written as version 1. Comments of a file are not kept: a scene that is read and written again has none.
+// too and written as version 1. Of a file's comments the one at its head, between the
+// first line and the next record, is kept; those further down are not.
 //
 // Numbers: -?(digits[.digits] | .digits)[e[+-]digits], of at most 128 characters, the same under every locale. A leading
 // '+', hexadecimal, inf and nan are refused, and so is a number that no double holds (1e400, 1e-400).

@@ -1,5 +1,6 @@
 // Objects: their type's own keys, their place in the tree, and what can only be told at the end of the file.
 #include "core/scene/text_reader.h"
+#include "core/sdf/tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,18 @@ void Reader::finishObjects() {
     }
 }
 
+namespace {
+/// What becomes of a body that is no ball.
+std::string_view howItFalls(const Scene& scene, std::size_t body) {
+    constexpr std::string_view kAsBall = "falls as its bounding sphere in this version";
+    if (firstUnevaluated(scene)) return kAsBall;
+    const Box box = bounds(makeTree(scene, [body](std::size_t i) { return i == body; }));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (box.hi[axis] - box.lo[axis] == HUGE_VAL) return "has a mass but is infinite, and does not move";
+    return kAsBall;
+}
+}  // namespace
+
 void Reader::warn() {
     for (std::size_t i = 0; i < scene_.objects.size() && warnings_.size() < kMaxFaults; ++i) {
         const Object& o = scene_.objects[i];
@@ -164,7 +177,7 @@ void Reader::warn() {
         if (o.type->isOperator() && !asOperator(*o.type).evaluated())
             warnings_.push_back({line, column, fmt::format("'{}' is read and kept, but this version cannot draw it", o.type->name)});
         if (o.isBody() && o.type->name != "sphere")
-            warnings_.push_back({line, column, fmt::format("{} falls as its bounding sphere in this version", shown(label(scene_, i)))});
+            warnings_.push_back({line, column, fmt::format("{} {}", shown(label(scene_, i)), howItFalls(scene_, i))});
     }
     if (warnings_.size() > kMaxFaults) warnings_.resize(kMaxFaults);
 }

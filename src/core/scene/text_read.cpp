@@ -79,7 +79,11 @@ void Reader::readLine(std::string_view line) {
     }
     cut(line, line_);
     for (LexFault& f : line_.faults) faults_.add(f.at, std::move(f.message));
-    if (line_.pieces.empty() && line_.faults.empty()) return;
+    if (line_.pieces.empty() && line_.faults.empty()) {
+        if (const std::size_t hash = line.find('#'); at_head_ && hash < line.size()) scene_.comment.append(line.substr(hash)) += '\n';
+        return;
+    }
+    at_head_ = false;
     // Of a line whose first piece is unsound nothing more can be told.
     if (line_.pieces.empty() || (!line_.faults.empty() && line_.faults.front().at < line_.pieces.front().at)) return unreadable(line);
     if (first(line_)) form_ == Form::older ? older(line_) : record(line_);
@@ -111,6 +115,7 @@ bool Reader::first(const Line& line) {
     }
     form_ = Form::version1;
     if (keyword(line) == "marchbox") {
+        at_head_ = true;
         version(line);
         return false;
     }

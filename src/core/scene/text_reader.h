@@ -112,6 +112,7 @@ private:
     Line line_;
     Form form_ = Form::unknown;
     std::vector<Level> levels_;  // the last record of each level
+    bool at_head_ = false;  // nothing but comments since the first line
     int world_line_ = 0, render_line_ = 0, physics_line_ = 0;
     std::map<std::string, int> camera_names_, light_names_, material_names_, object_names_;  // and their lines
 

@@ -63,7 +63,7 @@ void appendObject(std::string& out, const Scene& scene, const Object& o, std::si
 }  // namespace
 
 std::string writeScene(const Scene& scene) {
-    std::string out = "marchbox 1\n";
+    std::string out = "marchbox 1\n" + scene.comment;
     appendUnlessInitial(out, "world", scene.world);
     for (const Camera& camera : scene.cameras) appendRecord(out, "camera", camera);
     for (const Light& light : scene.lights) appendRecord(out, "light", light);
