@@ -56,8 +56,10 @@ GlslResults runGlslTests(std::string_view path, std::string_view text) {
     texts.emplace(path, text);
     texts["prelude.glsl"] = kPrelude;
     texts["main.glsl"] = mainCalling(results.tests);
-    texts["tests.glsl"] = fmt::format("#version 330 core\n#include \"prelude.glsl\"\n#include \"sdf/dialect.glsl\"\n#include \"{}\"\n#include \"main.glsl\"\n", path);
-    const Composed composed = resolve(texts, "tests.glsl", "#define LEAVES 1\n#define BRANCHES 1\n#define MATERIALS 1\n#define LIGHTS 1\n#define EFFECT_CHECKER\n");
+    texts["tests.glsl"] = fmt::format("#version 330 core\n#include \"prelude.glsl\"\n#include \"sdf/dialect.glsl\"\n"
+                                      "#include \"{}\"\n#include \"main.glsl\"\n", path);
+    const Composed composed = resolve(texts, "tests.glsl", "#define LEAVES 1\n#define BRANCHES 1\n#define MATERIALS 1\n#define LIGHTS 1\n"
+                                                          "#define EFFECT_CHECKER\n");
     const Program program = makeProgram(composed);
     if (!program.usable()) {
         results.compile_error = program.log;

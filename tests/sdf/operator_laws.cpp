@@ -61,7 +61,8 @@ std::string strayBlend(const Operator& op, Draw& draw) {
         if (!(grown <= rounding && grown >= -k / 4 - rounding)) return describe(op, a, b, k) + fmt::format(" moves the plain value by {}", moved);
         const double apart = std::fabs(a - (op.first_only ? -b : b));
         if (apart >= k && moved != 0) return describe(op, a, b, k) + " blends what is further apart than the blend";
-        if (apart == 0 && std::fabs(std::fabs(moved) - k / 4) > rounding) return describe(op, a, b, k) + fmt::format(" moves the middle of the seam by {}", moved);
+        if (apart == 0 && std::fabs(std::fabs(moved) - k / 4) > rounding)
+            return describe(op, a, b, k) + fmt::format(" moves the middle of the seam by {}", moved);
     }
     return {};
 }
@@ -71,7 +72,8 @@ std::string steeperThanOne(const Operator& op, Draw& draw) {
         const double a = drawDistance(draw), b = drawDistance(draw, a), k = draw.oneIn(3) ? 0 : drawBlend(draw);
         const double a2 = a + draw.uniform(-1, 1) * draw.logUniform(1e-6, 10), b2 = b + draw.uniform(-1, 1) * draw.logUniform(1e-6, 10);
         const double rise = std::fabs(op.fold<double>(a2, b2, k) - op.fold<double>(a, b, k)), step = std::max(std::fabs(a2 - a), std::fabs(b2 - b));
-        if (!(rise <= step + 8 * 0x1p-52 * (std::fabs(a) + std::fabs(b) + k + 20))) return describe(op, a, b, k) + " rises faster than its children";
+        if (!(rise <= step + 8 * 0x1p-52 * (std::fabs(a) + std::fabs(b) + k + 20)))
+            return describe(op, a, b, k) + " rises faster than its children";
     }
     return {};
 }
@@ -95,7 +97,8 @@ std::string outsideItsChildren(const Operator& op, Draw& draw) {
         const double slack = 4 * 0x1p-52 * (std::fabs(a) + std::fabs(b));
         const bool first = r >= a - slack, both = first && r >= b - slack;
         if ((op.first_only && !first) || (op.intersects && !both)) return describe(op, a, b, k) + fmt::format(" = {} is outside its children", r);
-        if (!op.first_only && !op.intersects && !(r <= std::min(a, b) + slack)) return describe(op, a, b, k) + fmt::format(" = {} does not hold its children", r);
+        if (!op.first_only && !op.intersects && !(r <= std::min(a, b) + slack))
+            return describe(op, a, b, k) + fmt::format(" = {} does not hold its children", r);
     }
     return {};
 }
@@ -106,7 +109,8 @@ std::string wrongSurface(const Operator& op, Draw& draw) {
         const double a = drawDistance(draw), b = drawDistance(draw, a), r = op.fold<double>(a, b, 0);
         const double second = op.first_only ? -b : b;
         const bool want = r != a;
-        if (op.takesSecond(a, b) != want || (want && r != second)) return describe(op, a, b, 0) + fmt::format(" = {} shows the other one's surface", r);
+        if (op.takesSecond(a, b) != want || (want && r != second))
+            return describe(op, a, b, 0) + fmt::format(" = {} shows the other one's surface", r);
     }
     return {};
 }
@@ -118,7 +122,8 @@ std::string scalarsDisagree(const Operator& op, Draw& draw) {
         // A dozen roundings, with the numbers' own, of terms no larger than these; and the square of a
         // very small blend is lost in float.
         const float f = op.fold<float>(static_cast<float>(a), static_cast<float>(b), k);
-        if (!(std::fabs(static_cast<double>(f) - r) <= 8 * 0x1p-23 * (std::fabs(a) + std::fabs(b) + k) + 1e-18)) return describe(op, a, b, k) + fmt::format(": float says {}", f);
+        if (!(std::fabs(static_cast<double>(f) - r) <= 8 * 0x1p-23 * (std::fabs(a) + std::fabs(b) + k) + 1e-18))
+            return describe(op, a, b, k) + fmt::format(": float says {}", f);
 
         const double width = draw.oneIn(3) ? 0 : draw.logUniform(1e-9, 10);
         const Interval x(a - width, a + width), y(b - width, b + width), bound = op.fold<Interval>(x, y, k);
@@ -141,7 +146,8 @@ std::string wrongGradient(const Operator& op, Draw& draw) {
         };
         // The value's second derivative is at most 1/(2k) = 5, and a crease would be a jump by 1.
         if (!(std::fabs(r.dx - by_differences(h, 0)) < 1e-5 && std::fabs(r.dy - by_differences(0, h)) < 1e-5))
-            return describe(op, a, b, k) + fmt::format(": gradient ({}, {}), by differences ({}, {})", r.dx, r.dy, by_differences(h, 0), by_differences(0, h));
+            return describe(op, a, b, k) + fmt::format(": gradient ({}, {}), by differences ({}, {})", r.dx, r.dy, by_differences(h, 0),
+                                                       by_differences(0, h));
     }
     return {};
 }

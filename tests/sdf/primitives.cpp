@@ -100,9 +100,15 @@ std::vector<BadRow> badRows() {
         change(bad);
         all.push_back({law, bad});
     };
-    add("the extent is the tightest box", "sphere", [](Primitive& p) { p.extent = [](const LeafNumbers& k) { return Box{{-2 * k[0], -k[0], -k[0]}, {k[0], k[0], k[0]}}; }; });
-    add("the extent is the tightest box", "sphere", [](Primitive& p) { p.extent = [](const LeafNumbers& k) { return Box{{-k[0], -k[0], -k[0]}, {k[0], k[0], k[0] * 0.999}}; }; });
-    add("the extent is the tightest box", "plane", [](Primitive& p) { p.extent = [](const LeafNumbers&) { return Box{{-1, -1, -1}, {1, 1, 1}}; }; });
+    add("the extent is the tightest box", "sphere", [](Primitive& p) {
+        p.extent = [](const LeafNumbers& k) { return Box{{-2 * k[0], -k[0], -k[0]}, {k[0], k[0], k[0]}}; };
+    });
+    add("the extent is the tightest box", "sphere", [](Primitive& p) {
+        p.extent = [](const LeafNumbers& k) { return Box{{-k[0], -k[0], -k[0]}, {k[0], k[0], k[0] * 0.999}}; };
+    });
+    add("the extent is the tightest box", "plane", [](Primitive& p) {
+        p.extent = [](const LeafNumbers&) { return Box{{-1, -1, -1}, {1, 1, 1}}; };
+    });
     add("gradients match differences", "box", [](Primitive& p) {
         p.dual = [](sdf::Vec3<sdf::Dual> q, const double* k) { return rowOf("box").dual(q, k) * sdf::Dual(1) + sdf::Dual(0, 1e-6, 0, 0); };
     });
@@ -121,17 +127,22 @@ std::vector<BadRow> badRows() {
     add("float agrees with double", "capsule", [](Primitive& p) {
         p.f32 = [](sdf::Vec3<float> q, const double* k) { return rowOf("capsule").f32(q, k) + 1e-5f * static_cast<float>(k[0]); };
     });
-    // The distance scaled, a bound called exact, a shape within its own distance, two numbers in the wrong order.
-    all.push_back({"the slope is one, or at most one", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(1.1); })});
-    all.push_back({"the slope is one, or at most one", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(0.9); })});
-    all.push_back({"no pair is steeper than one", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(1.1); })});
-    all.push_back({"the distance is that to the surface", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(0.9); })});
-    all.push_back({"the distance is that to the surface", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) {
+    // The distance scaled, without its sign, of another ball; two numbers in the wrong order; a bound called exact.
+    const auto steep = []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(1.1); };
+    const auto flat = []<class R>(sdf::Vec3<R> p, const double* k) { return (length(p) - number<R>(k[0])) * number<R>(0.9); };
+    const auto unsigned_ = []<class R>(sdf::Vec3<R> p, const double* k) {
         using sdf::abs;
         return abs(length(p) - number<R>(k[0]));
-    })});
-    all.push_back({"the extent is the tightest box", with("sphere", []<class R>(sdf::Vec3<R> p, const double* k) { return length(p) - number<R>(2 * k[0]); })});
-    all.push_back({"the extent is the tightest box", with("torus", []<class R>(sdf::Vec3<R> p, const double* k) { return sdf::Sdf<R>{}.sdTorus(p, number<R>(k[1]), number<R>(k[0])); })});
+    };
+    const auto large = []<class R>(sdf::Vec3<R> p, const double* k) { return length(p) - number<R>(2 * k[0]); };
+    const auto swapped = []<class R>(sdf::Vec3<R> p, const double* k) { return sdf::Sdf<R>{}.sdTorus(p, number<R>(k[1]), number<R>(k[0])); };
+    all.push_back({"the slope is one, or at most one", with("sphere", steep)});
+    all.push_back({"the slope is one, or at most one", with("sphere", flat)});
+    all.push_back({"no pair is steeper than one", with("sphere", steep)});
+    all.push_back({"the distance is that to the surface", with("sphere", flat)});
+    all.push_back({"the distance is that to the surface", with("sphere", unsigned_)});
+    all.push_back({"the extent is the tightest box", with("sphere", large)});
+    all.push_back({"the extent is the tightest box", with("torus", swapped)});
     add("the slope is one, or at most one", "ellipsoid", [](Primitive& p) { p.exact = true; });
     add("the distance is that to the surface", "ellipsoid", [](Primitive& p) { p.exact = true; });
     add("the value rises with the distance from the shape", "ellipsoid", [](Primitive& p) { p.rises = nullptr; });

@@ -99,7 +99,8 @@ TEST_CASE("the scalars agree on whole trees") {
             CHECK(glm::length(slope(tree, p).gradient) <= 1 + 1e-9);
             const sdf::Vec3<float> q{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
             // Positions, rotations and numbers are rounded to float too: 32 ulps of the 10 m that everything lies in.
-            if (std::fabs(d) < 10) CHECK(std::fabs(static_cast<double>(distance<float>(tree, q)) - distance<double>(tree, {q.x, q.y, q.z})) < 32 * 0x1p-23 * 10);
+            const double error = static_cast<double>(distance<float>(tree, q)) - distance<double>(tree, {q.x, q.y, q.z});
+            if (std::fabs(d) < 10) CHECK(std::fabs(error) < 32 * 0x1p-23 * 10);
             CHECK(nearest<float>(tree, q).distance == distance<float>(tree, q));
 
             const double half = draw.oneIn(3) ? 0 : draw.logUniform(1e-6, 1);

@@ -113,7 +113,8 @@ std::string readableLog(const Composed& composed, std::string_view log) {
         log.remove_prefix(std::min(end + 1, log.size()));
         std::smatch place;
         if (std::regex_search(line, place, kPlace))
-            readable += fmt::format("{}{}{}{}\n", std::string(place.prefix()), place[1].str(), readablePlace(composed, std::stol(place[2])), std::string(place.suffix()));
+            readable += fmt::format("{}{}{}{}\n", std::string(place.prefix()), place[1].str(), readablePlace(composed, std::stol(place[2])),
+                                    std::string(place.suffix()));
         else
             readable += line + '\n';
     }
