@@ -150,10 +150,10 @@ TEST_CASE("a typed number is held to the key's range, and what is none changes n
     const struct { const char *label, *text; double becomes; } kTyped[] = {
         {"radius", "-1", 1e-6}, {"radius", "nan", 1e-6}, {"radius", "", 1e-6}, {"radius", "99999999999", 1e6}, {"radius", "/0", 1e6},
         {"radius", "7", 7}, {"radius", "x", 7}, {"radius", "inf", 7}};
-    for (const auto& [label, text, becomes] : kTyped) {
-        CAPTURE(text);
-        h.typeInto("Attributes", label, text);
-        CHECK(sceneOf(h).objects[1].numbers[0] == becomes);
+    for (const auto& typed : kTyped) {
+        CAPTURE(typed.text);
+        h.typeInto("Attributes", typed.label, typed.text);
+        CHECK(sceneOf(h).objects[1].numbers[0] == typed.becomes);
     }
     CHECK(readScene(writeScene(sceneOf(h))).ok());
 }
