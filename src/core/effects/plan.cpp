@@ -48,10 +48,10 @@ constexpr Effect kEffects[] = {
 };
 
 /// Loop iterations of one pass of `lights` lights, each loop's last look at its condition included.
-int iterations(const RenderKnobs& knobs, bool reflects, bool shadows, int lights) {
-    const int bounces = reflects ? knobs.reflections + 1 : 1;
+std::int64_t iterations(const RenderKnobs& knobs, bool reflects, bool shadows, int lights) {
+    const std::int64_t bounces = reflects ? knobs.reflections + 1 : 1;
     const int normal = 6, look = 1;
-    const int light = look + (shadows ? knobs.shadow_steps + look : 0);
+    const std::int64_t light = look + (shadows ? knobs.shadow_steps + look : 0);
     return look + bounces * (look + knobs.march_steps + look + normal + look + lights * light + look);
 }
 

@@ -30,7 +30,7 @@ struct Plan {
     };
     std::vector<Called> called;
     std::vector<LightPass> passes;     // at least one
-    int loop_iterations = 0;           // the most that any pixel of any pass can make, over all loops of the shader
+    std::int64_t loop_iterations = 0;  // the most that any pixel of any pass can make, over all loops of the shader
     std::string refused;               // why the scene cannot be drawn; empty if it can
 
     bool has(std::string_view name) const;
