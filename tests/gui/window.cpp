@@ -165,6 +165,9 @@ TEST_CASE("in the real window: add an object through the menus, save, close, com
     if (fs::exists(MARCHBOX_BINARY)) {
         Child program{::fork()};
         if (program.pid == 0) {
+            // The driver unloads itself before the leak checker of a sanitizer build looks, so that its own leaks have no name
+            // to be suppressed by; the editor's own are looked for by the tests with no window.
+            ::setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
             ::execl(MARCHBOX_BINARY, "marchbox", "edit", file.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);
         }
