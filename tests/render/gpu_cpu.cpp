@@ -96,8 +96,9 @@ Errors compare(const Scene& scene, const std::vector<glm::vec3>& points, const s
     return e;
 }
 
-/// 16 ulps of the coordinates, which reach 10 m from an object's centre scaled and turned: measured, the worst is a third of it.
-constexpr double kBound = 16 * 0x1p-23 * 10;
+/// 4 ulps of the coordinates, which reach 10 m from an object's centre scaled and turned: one each for the difference, the
+/// rotation, the primitive and the operators above it.
+constexpr double kBound = 4 * 0x1p-23 * 10;
 
 }  // namespace
 
