@@ -55,6 +55,7 @@ void main() {
         ray = reflectRay(ray, surface);
     }
 
+    if (cut_short) outcome.state = UNDECIDED;
     if (outcome.state == UNDECIDED && showsUndecided()) color = frame.pass.z != 0 ? UNDECIDED_TINT : vec3(0.0);
     out_color = vec4(color, frame.background.w);
     gl_FragDepth = depthOf(outcome.depth);

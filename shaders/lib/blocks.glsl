@@ -29,22 +29,48 @@ struct Frame {
     vec4 reach;       // march epsilon, max distance, normal epsilon, size of the largest thing in the scene
     vec4 background;  // w: 1 in the pass that counts as a sample, 0 in one that adds further lights to it
     ivec4 limits;     // march steps, shadow steps, reflections; 1 to show undecided pixels
-    ivec4 pass;       // the first light of this pass and the one after its last; 1 for the pass that adds the ambient light
+    vec4 grid_corner; // of the grid's first cell, relative to the eye; w: a coarse cell's size
+    vec4 box_lo;      // of all that has bounds, relative to the eye
+    vec4 box_hi;
+    ivec4 grid_size;  // coarse cells; items of the list of what has no bounds
+    ivec4 pass;       // the first light of this pass and the one after its last; 1 for the pass that adds the ambient light; leaves and operators in all
 };
 
 layout(std140) uniform FrameBlock { Frame frame; };
+#ifdef GRID
+// Records of thousands of objects: vec4s of one texture, the leaves, the operators, then the materials.
+uniform sampler2D records;
+const int NODE_TEXELS = 5;
+const int MATERIAL_TEXELS = 3;
+vec4 recordTexel(int i) { return texelFetch(records, ivec2(i & 2047, i >> 11), 0); }
+Node recordAt(int record) {
+    int i = record * NODE_TEXELS;
+    return Node(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2), recordTexel(i + 3), recordTexel(i + 4));
+}
+Node leafRecord(int leaf) { return recordAt(leaf); }
+Material materialRecord(int material) {
+    int i = frame.pass.w * NODE_TEXELS + material * MATERIAL_TEXELS;
+    return Material(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2));
+}
+#else
 layout(std140) uniform LeafBlock { Node leaves[LEAVES]; };
 layout(std140) uniform BranchBlock { Node branches[BRANCHES]; };
 layout(std140) uniform MaterialBlock { Material materials[MATERIALS]; };
-layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
-
 Node leafRecord(int leaf) { return leaves[leaf]; }
+Material materialRecord(int material) { return materials[material]; }
+#endif
+layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
 
 // A point in a record's frame.
 vec3 local(vec3 p, Node node) {
     vec3 q = p - node.position.xyz;
     return vec3(dot(node.x_axis.xyz, q), dot(node.y_axis.xyz, q), dot(node.z_axis.xyz, q));
 }
+
+vec3 turnedTo(vec3 d, Node node) { return vec3(dot(node.x_axis.xyz, d), dot(node.y_axis.xyz, d), dot(node.z_axis.xyz, d)); }
+
+// How much of a ray is free before another span of it, which may be empty or behind.
+float freeBefore(float free, vec2 span) { return span.y < max(span.x, 0.0) ? free : min(free, max(span.x, 0.0)); }
 
 int marchSteps() { return frame.limits.x; }
 int shadowSteps() { return frame.limits.y; }

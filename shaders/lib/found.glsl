@@ -24,7 +24,7 @@ bool isDarkField(vec3 p) {
 }
 
 Look lookOf(int leaf, vec3 at) {
-    Material material = materials[int(leafRecord(max(leaf, 0)).position.w)];
+    Material material = materialRecord(int(leafRecord(max(leaf, 0)).position.w));
     vec3 color = material.color.rgb;
 #ifdef EFFECT_CHECKER
     if (material.phong.w != 0.0 && isDarkField(at)) color = material.color2.rgb;

@@ -24,25 +24,43 @@ struct March {
 March marchWith(Ray ray, float far, int budget, bool narrows) {
     March march = March(UNDECIDED, 0.0, INFINITY, 1.0, 0);
     float t = 0.0;             // where the field is asked next
-    float before = 0.0;        // where it was last accepted, and what it was there
+    float before = 0.0;        // where it was last accepted, what it was there, and how far from there all is empty
     float f_before = 0.0;
-    float slope = -1.0;
-    bool proved = true;        // all of [0, before] lies in spheres of emptiness
+    float reach = 0.0;
+    bool proved = true;        // all of [0, before] lies in emptiness
     bool touched = false;      // came within the noise of a surface
     bool bracketed = false;    // the sign changes in [lo, hi]
     float lo = 0.0, hi = 0.0, f_lo = 0.0, f_hi = 0.0;
     int narrowed = 0;
+#ifdef RELAXED
+    float slope = -1.0;
+#endif
 
     for (int i = 0; i < STEP_CAP; ++i) {
         if (i >= budget) break;
-        float f = march.side * map(ray.origin + ray.direction * t);
+#ifdef GRID
+        Cell cell;
+        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed, cell);
+        if (landed > t) {
+            if (t - before > reach + noiseAt(ray.travelled + t)) proved = false;
+            t = landed;
+            reach = t - before;
+            if (t >= far) {
+                march.state = proved && !touched ? MISS : UNDECIDED;
+                break;
+            }
+        }
+        vec2 found = mapAhead(ray.origin + ray.direction * t, ray.direction, cell);
+#else
+        vec2 found = mapAhead(ray.origin + ray.direction * t, ray.direction);
+#endif
+        float f = march.side * found.x;
         ++march.evaluations;
         if (i == 0 && f < 0.0) {
             march.side = -1.0;  // an eye in a solid sees its inside
             f = -f;
         }
         float noise = noiseAt(ray.travelled + t);
-        float close = closeAt(ray.travelled + t);
 
         // Narrow the bracket. The side that stays twice loses half its weight (the Illinois rule).
         if (bracketed) {
@@ -54,17 +72,19 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             continue;
         }
 
-        // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
+        // A long step must land in emptiness that meets the last: else go back and step as far as is safe. A short one, near
+        // a surface, may leave a gap, but then nothing is proved.
         float step = t - before;
-        bool was_close = i > 0 && f_before < closeAt(ray.travelled + before);
-        if (i > 0 && !was_close && step > f_before + abs(f) + noise && step > f_before) {
-            t = before + f_before;
+        bool gap = step > reach + abs(f) + noise;
+#ifdef RELAXED
+        bool was_close = f_before < closeAt(ray.travelled + before);
+        if (gap && !was_close && step > reach) {
+            t = before + reach;
             slope = -1.0;
             continue;
         }
-        if (i > 0 && step > 0.0) slope = mix((f - f_before) / step, slope, SLOPE_MEMORY);
-        if (was_close && f >= 0.0 && f_before + f + noise < step) proved = false;
-
+        if (step > 0.0) slope = mix((f - f_before) / step, slope, SLOPE_MEMORY);
+#endif
         if (f < -noise) {
             march.state = HIT;
             march.t = t;
@@ -75,17 +95,24 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             t = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
             continue;
         }
+        if (gap) proved = false;
         touched = touched || (f <= noise && i > 0);
         if (f < march.closest) { march.closest = f; march.t = t; }
-        if (t + f >= far) {
+        before = t;
+        f_before = max(f, 0.0);
+        reach = max(f_before, march.side * found.y - 2.0 * noise);
+        if (t + reach >= far) {
             march.state = proved && !touched ? MISS : UNDECIDED;
             break;
         }
-        before = t;
-        f_before = max(f, 0.0);
-        float relaxed = 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION));
-        t = min(t + (f < close ? close : max(f, relaxed)), far);
+        float close = closeAt(ray.travelled + t);
+        float ahead = max(reach, close);
+#ifdef RELAXED
+        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION)));
+#endif
+        t = min(t + ahead, far);
     }
+    if (cut_short) march.state = UNDECIDED;
     return march;
 }
 

@@ -24,6 +24,9 @@ const int NORMAL = 1;
 const int SHADOW = 2;
 const int REFLECTION = 3;
 
+const float EMPTY = 1e9;  // the distance of nothing: finite, so that no difference of two is NaN
+bool cut_short = false;   // a loop ended before its time: software OpenGL stops all loops of a shader at 65,535 rounds
+
 int touches = 0;  // by the evaluations since the last count
 void count(int kind, int evaluations) {
     outcome.evaluations[kind] += evaluations;

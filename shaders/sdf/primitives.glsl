@@ -6,10 +6,35 @@
 // pick(s, a, b), which is a where s < 0 and b elsewhere; square(a) instead of a * a.
 //
 // A parameter's name and type here are those of its row in src/core/sdf/primitives.cpp and of the scene file.
+//
+// Beside a distance may stand a span: between which two lengths the line from o along d, of unit length, may be inside; a span
+// whose second end comes first is empty. Nothing outside the span is solid, though not all within must be. It only lengthens
+// a march's step over what is known to be empty; a hit is always a sign of the distance.
+
+// Within a box of these half sides around the origin.
+real awayFromZero(real x) { return pick(abs(x) - 1e-18f, pick(x, -1e-18f, 1e-18f), x); }
+vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
+    vec3 inverse = vec3(1.0f / awayFromZero(d.x), 1.0f / awayFromZero(d.y), 1.0f / awayFromZero(d.z));
+    vec3 middle = o * inverse;
+    vec3 reach = half_sides * abs(inverse);
+    return vec2(max(-middle.x - reach.x, max(-middle.y - reach.y, -middle.z - reach.z)),
+                min(reach.x - middle.x, min(reach.y - middle.y, reach.z - middle.z)));
+}
+
+// Within a ball. The nearest approach is computed as a point: the usual discriminant loses it to rounding from far away
+// (Haines, Guenther and Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", 2019).
+vec2 spanBall(vec3 o, vec3 d, real radius) {
+    real b = 0.0f - dot(o, d);
+    vec3 nearest = o + d * b;
+    real h = square(radius) - dot(nearest, nearest);
+    real s = sqrt(max(h, 0.0f));
+    return vec2(b - pick(h, real(-1.0f), s), b + pick(h, real(-1.0f), s));
+}
 
 real sdSphere(vec3 p, real radius) {
     return length(p) - radius;
 }
+vec2 spanSphere(vec3 o, vec3 d, real radius) { return spanBall(o, d, radius); }
 
 // The distance to a rounded corner region, q being how far a point lies beyond each face of a box.
 real outside(vec3 q) { return length(max(q, 0.0f)) + min(max(q.x, max(q.y, q.z)), 0.0f); }
@@ -19,24 +44,33 @@ real sdBox(vec3 p, vec3 size, real round) {
     real r = min(round, 0.5f * min(size.x, min(size.y, size.z)));
     return outside(abs(p) - size * real(0.5f) + r) - r;
 }
+vec2 spanBox(vec3 o, vec3 d, vec3 size, real round) { return spanAround(o, d, size * real(0.5f)); }
 
 // The half-space normal·p <= offset is solid.
 real sdPlane(vec3 p, vec3 normal, real offset) {
     return dot(p, normal) - offset;
 }
+vec2 spanPlane(vec3 o, vec3 d, vec3 normal, real offset) {
+    real rate = dot(d, normal);
+    real t = (offset - dot(o, normal)) / awayFromZero(rate);
+    return vec2(pick(rate, t, real(-1e18f)), pick(rate, real(1e18f), t));
+}
 
 real sdTorus(vec3 p, real major, real minor) {
     return length(vec2(length(vec2(p.x, p.z)) - major, p.y)) - minor;
 }
+vec2 spanTorus(vec3 o, vec3 d, real major, real minor) { return spanAround(o, d, vec3(major + minor, minor, major + minor)); }
 
 real sdCylinder(vec3 p, real radius, real height, real round) {
     real r = min(round, min(radius, 0.5f * height));
     return outside(vec2(length(vec2(p.x, p.z)) - radius + r, abs(p.y) - 0.5f * height + r)) - r;
 }
+vec2 spanCylinder(vec3 o, vec3 d, real radius, real height, real round) { return spanAround(o, d, vec3(radius, 0.5f * height, radius)); }
 
 real sdCapsule(vec3 p, real radius, real height) {
     return length(vec3(p.x, max(abs(p.y) - 0.5f * height, 0.0f), p.z)) - radius;
 }
+vec2 spanCapsule(vec3 o, vec3 d, real radius, real height) { return spanAround(o, d, vec3(radius, 0.5f * height + radius, radius)); }
 
 // A frustum between a base of `radius` and a top of `radius2`. The nearest feature is a disc (the caps) or the slanted
 // side, a segment in the half-plane of the radius q.x and the height q.y.
@@ -55,11 +89,15 @@ real sdCone(vec3 p, real radius, real radius2, real height) {
     real beyond = max(from.x * side.y - from.y * side.x, cap.y);
     return sqrt(nearest) * pick(beyond, real(-1.0f), real(1.0f));
 }
+vec2 spanCone(vec3 o, vec3 d, real radius, real radius2, real height) {
+    return spanAround(o, d, vec3(max(radius, radius2), 0.5f * height, max(radius, radius2)));
+}
 
 // A bound: the unit ball's distance in the stretched space, brought back by the least stretch. Its slope is at most 1.
 real sdEllipsoid(vec3 p, vec3 radii) {
     return (length(p / radii) - 1.0f) * min(radii.x, min(radii.y, radii.z));
 }
+vec2 spanEllipsoid(vec3 o, vec3 d, vec3 radii) { return spanAround(o, d, radii); }
 
 // The nearest feature is a face, unless the point lies over one of its three edges, where t runs along the edge.
 real octahedronEdge(real a, real b, real c, real radius) {
@@ -73,6 +111,7 @@ real sdOctahedron(vec3 p, real radius) {
            pick(3.0f * q.y - m, octahedronEdge(q.y, q.z, q.x, radius),
            pick(3.0f * q.z - m, octahedronEdge(q.z, q.x, q.y, radius), m / sqrt(real(3.0f)))));
 }
+vec2 spanOctahedron(vec3 o, vec3 d, real radius) { return spanAround(o, d, vec3(radius)); }
 
 // Reflects p to the near side of the line through the origin in the direction (c, s), where `on` is negative.
 vec2 foldAcross(vec2 p, real c, real s, real on) {
@@ -101,3 +140,4 @@ real sdPrism(vec3 p, real sides, real radius, real height, real apothem) {
     real across = pick(side.x, side.x, length(side));
     return outside(vec2(across, abs(p.y) - 0.5f * height));
 }
+vec2 spanPrism(vec3 o, vec3 d, real sides, real radius, real height, real apothem) { return spanAround(o, d, vec3(radius, 0.5f * height, radius)); }

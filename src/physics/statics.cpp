@@ -1,5 +1,6 @@
 #include "physics/statics.h"
 
+#include "core/sdf/grid.h"
 #include "physics/closest.h"
 
 #include <fmt/format.h>
@@ -11,16 +12,6 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
-
-double distanceTo(const Box& box, glm::dvec3 p) {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const double d = std::max({box.lo[k] - p[i], p[i] - box.hi[k], 0.0});
-        sum += d * d;
-    }
-    return std::sqrt(sum);
-}
 
 /// Whether the surface lies elsewhere than on its leaves' own: the tree wraps, warps or morphs.
 bool movesSurfaces(const Tree& tree) {

@@ -121,7 +121,9 @@ TEST_CASE("what cannot be drawn says so and leaves the last picture") {
 
     Scene crowded = testScene();
     for (int i = 0; i < 2000; ++i) addObject(crowded, "sphere", {0.1});
+    renderer.setEvaluation(Evaluation::straight);
     CHECK(renderer.draw(crowded, camera, {40, 30}).find("2004 primitives") != std::string::npos);
+    renderer.setEvaluation(Evaluation::automatic);
 
     Scene deep = testScene();
     deep.render.reflections = 64, deep.render.march_steps = 8192;

@@ -79,6 +79,8 @@ std::span<const BlockMember> blockMembers() {
         MB_AT(GpuFrame, right, "frame.right"), MB_AT(GpuFrame, up, "frame.up"), MB_AT(GpuFrame, forward, "frame.forward"),
         MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"),
         MB_AT(GpuFrame, background, "frame.background"), MB_AT(GpuFrame, limits, "frame.limits"), MB_AT(GpuFrame, pass, "frame.pass"),
+        MB_AT(GpuFrame, grid_corner, "frame.grid_corner"), MB_AT(GpuFrame, box_lo, "frame.box_lo"), MB_AT(GpuFrame, box_hi, "frame.box_hi"),
+        MB_AT(GpuFrame, grid_size, "frame.grid_size"),
         MB_AT(GpuNode, position, "leaves[0].position"), MB_AT(GpuNode, x_axis, "leaves[0].x_axis"),
         MB_AT(GpuNode, y_axis, "leaves[0].y_axis"), MB_AT(GpuNode, z_axis, "leaves[0].z_axis"), MB_AT(GpuNode, extra, "leaves[0].extra"),
         MB_AT(GpuMaterial, color, "materials[0].color"), MB_AT(GpuMaterial, color2, "materials[0].color2"),

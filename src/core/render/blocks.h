@@ -22,7 +22,9 @@ struct GpuLight {
 };
 struct GpuFrame {
     glm::vec4 right, up, forward, picture, reach, background;
-    glm::ivec4 limits, pass;
+    glm::ivec4 limits;
+    glm::vec4 grid_corner, box_lo, box_hi;
+    glm::ivec4 grid_size, pass;
 };
 
 /// Everything the shader reads of a scene, but the frame: packed anew for each frame, relative to an origin.

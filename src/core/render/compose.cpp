@@ -93,10 +93,11 @@ std::string readableLog(const Composed& composed, std::string_view log) {
     return readable;
 }
 
-std::string head(const Plan& plan, const Sizes& sizes, bool counted) {
-    std::string text = fmt::format("#define LEAVES {}\n#define BRANCHES {}\n#define MATERIALS {}\n#define LIGHTS {}\n",
-                                   std::max<std::size_t>(sizes.leaves, 1), std::max<std::size_t>(sizes.branches, 1),
-                                   std::max<std::size_t>(sizes.materials, 1), std::max<std::size_t>(sizes.lights, 1));
+std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) {
+    const auto define = [](std::string_view name, std::size_t size) { return fmt::format("#define {} {}\n", name, std::max<std::size_t>(size, 1)); };
+    std::string text = define("LIGHTS", sizes.lights);
+    if (grid) text += "#define GRID\n";
+    else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
     for (const Plan::Called& c : plan.called)
         if (!c.effect->define.empty()) text += fmt::format("#define {}\n", c.effect->define);
     if (counted) text += "#define COUNTED\n";

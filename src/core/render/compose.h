@@ -37,10 +37,14 @@ std::string readableLog(const Composed& composed, std::string_view log);
 /// trees that differ in values only give the same text.
 std::string sceneGlsl(const Tree& tree);
 
+/// The same as a loop over the items of the point's cell (core/sdf/grid.h), for the types of primitives and operators that
+/// the tree holds: two trees of the same types give the same text.
+std::string gridGlsl(const Tree& tree);
+
 /// The definitions above a shader: array sizes, and the switches of the effects called for.
 struct Sizes {
     std::size_t leaves, branches, materials, lights;
 };
-std::string head(const Plan& plan, const Sizes& sizes, bool counted);
+std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid = false);
 
 }  // namespace mb

@@ -41,7 +41,6 @@ std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 
     if (!ready.why.empty()) return ready.why;
     if (picture_.size() != size) picture_ = Targets(size, 2);
     picture_.clear();
-    glUseProgram(ready.program->name);
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_ONE, GL_ONE);
     gl.Enable(GL_DEPTH_TEST);
@@ -71,7 +70,6 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
     Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
     if (!ready.why.empty()) return ready.why;
     channels_ = Targets(size, kChannelAttachments);
-    glUseProgram(ready.program->name);
     out = {};
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 
@@ -95,7 +93,7 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
 
     // The channels of the pixels' centres.
     GpuFrame centre = ready.frame;
-    centre.pass = {0, 0, 1, 0};
+    centre.pass = {0, 0, 1, centre.pass.w};
     bindFrame(centre);
     channels_.clear();
     quad_.draw();
@@ -126,7 +124,6 @@ std::string Renderer::evaluate(const Scene& scene, const std::vector<glm::vec3>&
     gl.BindTexture(GL_TEXTURE_2D, input.texture(0));
     gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, texels.data());
     output.clear();
-    glUseProgram(ready.program->name);
     bindFrame(ready.frame);
     quad_.draw();
 
@@ -168,17 +165,29 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     ready.packed = pack(scene, tree, origin);
     ready.frame = packFrame(scene, camera, size);
     ready.frame.reach.w = ready.packed.reach;
-    if (ready.why = upload(ready.packed, ready.frame); !ready.why.empty()) return ready;
-    ready.program = program(variant, tree, ready.packed, ready.why);
+    ready.frame.pass.w = static_cast<int>(tree.leaves.size() + tree.branches.size());
+    ready.grid = evaluation_ == Evaluation::grid || (evaluation_ == Evaluation::automatic && tree.leaves.size() > kStraightLeaves);
+    grid_work_ = {};
+    if (ready.grid) {
+        grid_work_ = grid_.follow(tree);
+        placeGrid(grid_, origin, ready.frame);
+        if (ready.why = grid_textures_.upload(grid_, ready.packed); !ready.why.empty()) return ready;
+    }
+    if (ready.why = upload(ready); !ready.why.empty()) return ready;
+    ready.program = program(variant, tree, ready, ready.why);
+    if (!ready.why.empty()) return ready;
+    glUseProgram(ready.program->name);
+    if (ready.grid) grid_textures_.bind(*ready.program);
     return ready;
 }
 
-const Program* Renderer::program(Variant variant, const Tree& tree, const Packed& packed, std::string& why) {
+const Program* Renderer::program(Variant variant, const Tree& tree, const Ready& ready, std::string& why) {
+    const Packed& packed = ready.packed;
     const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size()};
     Texts texts = shaderLibrary();
-    texts["scene.glsl"] = sceneGlsl(tree);
+    texts["scene.glsl"] = ready.grid ? gridGlsl(tree) : sceneGlsl(tree);
     const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",
-                                      head(plan_, sizes, variant == Variant::counted));
+                                      head(plan_, sizes, variant == Variant::counted, ready.grid));
     const auto known = std::ranges::find(programs_, composed.text, &Cached::text);
     if (known != programs_.end()) {
         programs_.splice(programs_.begin(), programs_, known);
@@ -192,7 +201,8 @@ const Program* Renderer::program(Variant variant, const Tree& tree, const Packed
     return &program;
 }
 
-std::string Renderer::upload(const Packed& packed, const GpuFrame& frame) {
+std::string Renderer::upload(const Ready& ready) {
+    const Packed& packed = ready.packed;
     const auto fill = [&](BlockPoint point, const auto& records, std::size_t room, const char* what) -> std::string {
         using Record = typename std::decay_t<decltype(records)>::value_type;
         const std::size_t limit = static_cast<std::size_t>(block_bytes_);
@@ -204,12 +214,12 @@ std::string Renderer::upload(const Packed& packed, const GpuFrame& frame) {
             glBufferSubData(GL_UNIFORM_BUFFER, 0, static_cast<GLsizeiptr>(records.size() * sizeof(Record)), records.data());
         return {};
     };
+    if (std::string why = fill(BlockPoint::lights, packed.lights, packed.lights.size(), "lights"); !why.empty()) return why;
+    bindFrame(ready.frame);
+    if (ready.grid) return {};
     if (std::string why = fill(BlockPoint::leaves, packed.leaves, packed.leaves.size(), "primitives"); !why.empty()) return why;
     if (std::string why = fill(BlockPoint::branches, packed.branches, packed.branches.size(), "operators"); !why.empty()) return why;
-    if (std::string why = fill(BlockPoint::materials, packed.materials, packed.materials.size(), "materials"); !why.empty()) return why;
-    if (std::string why = fill(BlockPoint::lights, packed.lights, packed.lights.size(), "lights"); !why.empty()) return why;
-    bindFrame(frame);
-    return {};
+    return fill(BlockPoint::materials, packed.materials, packed.materials.size(), "materials");
 }
 
 void Renderer::bindFrame(const GpuFrame& frame) {
@@ -226,7 +236,7 @@ template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F
         for (const LightPass& lights : plan_.passes) {
             const bool first = lights.first == 0;
             frame.background.w = first ? 1.0f : 0.0f;
-            frame.pass = {lights.first, lights.last, first, 0};
+            frame.pass = {lights.first, lights.last, first, frame.pass.w};
             bindFrame(frame);
             pass();
         }

@@ -3,6 +3,7 @@
 // its life.
 #include "core/effects/plan.h"
 #include "core/render/blocks.h"
+#include "core/render/grid_textures.h"
 #include "core/render/program.h"
 #include "core/render/targets.h"
 
@@ -47,9 +48,15 @@ struct GpuSample {
     int leaf, object;                // −1 for none
 };
 
+/// How a scene's distance is evaluated: few primitives as straight-line code, many through a grid of pruned lists. Both give
+/// the same values; `automatic` takes what is faster.
+enum class Evaluation { automatic, straight, grid };
+inline constexpr std::size_t kStraightLeaves = 12;
+
 class Renderer {
 public:
     Renderer();
+    void setEvaluation(Evaluation evaluation) { evaluation_ = evaluation; }
 
     /// Draws the scene into picture(). Returns why it could not, or nothing; then the last picture stays.
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
@@ -67,6 +74,7 @@ public:
 
     const Plan& plan() const { return plan_; }       // of the last scene drawn
     const std::string& rendererName() const { return name_; }
+    const GridWork& gridWork() const { return grid_work_; }  // of the last scene drawn; nothing where it has no grid
     int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
 
 private:
@@ -75,12 +83,13 @@ private:
         const Program* program = nullptr;
         Packed packed;
         GpuFrame frame{};
+        bool grid = false;
     };
     enum class Variant { plain, counted, evaluate };
 
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
-    const Program* program(Variant variant, const Tree& tree, const Packed& packed, std::string& why);
-    std::string upload(const Packed& packed, const GpuFrame& frame);
+    const Program* program(Variant variant, const Tree& tree, const Ready& ready, std::string& why);
+    std::string upload(const Ready& ready);
     template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
     void bindFrame(const GpuFrame& frame);
 
@@ -93,6 +102,10 @@ private:
     Plan plan_;
     std::string name_;
     GLint block_bytes_ = 0;
+    Evaluation evaluation_ = Evaluation::automatic;
+    Grid grid_;
+    GridWork grid_work_;
+    GridTextures grid_textures_;
     Quad quad_;
     std::vector<OwnedBuffer> blocks_;
     Targets picture_, channels_;

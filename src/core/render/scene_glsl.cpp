@@ -1,31 +1,16 @@
 // map() and nearest() of a tree, as straight-line GLSL.
 #include "core/render/compose.h"
+#include "core/render/glsl_calls.h"
 
 #include <fmt/format.h>
 
 namespace mb {
 namespace {
 
-constexpr std::string_view kNumbers[] = {"x_axis.w", "y_axis.w", "z_axis.w", "extra.x"};
-
-/// ", box3.x_axis.w, …": a type's numbers as the library's functions take them, from the record of that name.
-std::string numbersOf(std::string_view record, std::span<const Parameter> parameters, int all) {
-    std::string text;
-    const auto number = [&](int at) { return fmt::format("{}.{}", record, kNumbers[at]); };
-    int at = 0;
-    for (const Parameter& p : parameters) {
-        if (p.size == 3) text += fmt::format(", vec3({}, {}, {})", number(at), number(at + 1), number(at + 2));
-        else text += ", " + number(at);
-        at += p.size;
-    }
-    for (; at < all; ++at) text += ", " + number(at);
-    return text;
-}
-
 /// Writes the two functions side by side. The values on the tree's stack have names: d7 in map(), n7 in nearest().
 struct Writer {
     const Tree& tree;
-    std::string map, find;
+    std::string map, ahead, find;
     std::vector<std::string> stack, points{"p"};
     int next = 0;
 
@@ -34,7 +19,12 @@ struct Writer {
         const std::string v = name(), record = fmt::format("leaf{}", i), &p = points[static_cast<std::size_t>(leaf.warps)];
         const std::string numbers = numbersOf(record, leaf.primitive->parameters, leaf.primitive->leafNumbers());
         const std::string at = leaf.primitive->turns ? fmt::format("local({}, {})", p, record) : fmt::format("{} - {}.position.xyz", p, record);
-        map += fmt::format("    float d{} = {}({}{});\n", v, leaf.primitive->glsl, at, numbers);
+        const std::string line = fmt::format("    float d{} = {}({}{});\n", v, leaf.primitive->glsl, at, numbers);
+        map += line, ahead += line;
+        ahead += leaf.primitive->span.empty()
+                     ? std::string("    free = 0.0;\n")
+                     : fmt::format("    free = freeBefore(free, {}({}, {}{}));\n", leaf.primitive->span, at,
+                                   leaf.primitive->turns ? fmt::format("turnedTo(d, {})", record) : "d", numbers);
         find += fmt::format("    float d{} = {}({}{});\n    Nearest n{} = foundLeaf(d{}, {}, local({}, {}));\n", v, leaf.primitive->glsl, at,
                             numbers, v, v, i, p, record);
         stack.push_back(v);
@@ -43,7 +33,8 @@ struct Writer {
     void join() {
         const auto [a, b] = operands();
         const std::string v = name();
-        map += fmt::format("    float d{} = min(d{}, d{});\n", v, a, b);
+        const std::string line = fmt::format("    float d{} = min(d{}, d{});\n", v, a, b);
+        map += line, ahead += line;
         find += fmt::format("    Nearest n{} = nearer(n{}, n{});\n", v, a, b);
         stack.push_back(v);
     }
@@ -53,7 +44,8 @@ struct Writer {
         const Branch& branch = tree.branches[i];
         const auto [a, b] = operands();
         const std::string v = name(), k = branch.blend > 0 ? fmt::format("branch{}.position.w", i) : "0.0";
-        map += fmt::format("    float d{} = {}(d{}, d{}, {});\n", v, branch.op->glsl, a, b, k);
+        const std::string line = fmt::format("    float d{} = {}(d{}, d{}, {});\n", v, branch.op->glsl, a, b, k);
+        map += line, ahead += line;
         find += fmt::format("    Nearest n{0} = foundBoth({1}(n{3}.distance, n{4}.distance, {5}), {2}(n{3}.distance, n{4}.distance, {5}), n{3}, n{4});\n",
                             v, branch.op->glsl, branch.op->share, a, b, k);
         stack.push_back(v);
@@ -93,7 +85,7 @@ bool readsRecord(const Branch& b) { return b.op->kind == Operator::Kind::wrap ||
 }  // namespace
 
 std::string sceneGlsl(const Tree& tree) {
-    Writer w{tree, {}, {}, {}};
+    Writer w{tree, {}, {}, {}, {}};
     for (const Instruction& step : tree.program) {
         switch (step.kind) {
         case Instruction::Kind::leaf: w.leaf(step.index); break;
@@ -115,10 +107,15 @@ std::string sceneGlsl(const Tree& tree) {
         read += fmt::format("    branch{0} = branches[{0}];\n", i);
     }
     const bool empty = w.stack.empty();
-    return fmt::format("{}void readScene() {{\n{}}}\nfloat map(vec3 p) {{\n{}    touches += {};\n    return {};\n}}\n"
-                       "Nearest nearest(vec3 p) {{\n{}    touches += {};\n    return {};\n}}\n",
-                       held, read, w.map, tree.leaves.size(), empty ? fmt::format("{:.1f}", kEmptyDistance) : "d" + w.stack.back(), w.find,
-                       tree.leaves.size(), empty ? fmt::format("foundLeaf({:.1f}, -1, p)", kEmptyDistance) : "n" + w.stack.back());
+    const std::string value = empty ? fmt::format("{:.1f}", kEmptyDistance) : "d" + w.stack.back();
+    const std::string count = fmt::format("    touches += {};\n", tree.leaves.size());
+    // What lies where its primitives do can be looked ahead for; what swells or warps them cannot.
+    const std::string ahead = staysWithinLeaves(tree)
+                                  ? fmt::format("vec2 mapAhead(vec3 p, vec3 d) {{\n    float free = {:.1f};\n{}{}    return vec2({}, free);\n}}\n",
+                                                kEmptyDistance, w.ahead, count, value)
+                                  : std::string("#define RELAXED\nvec2 mapAhead(vec3 p, vec3 d) { return vec2(map(p), 0.0); }\n");
+    return fmt::format("{}void readScene() {{\n{}}}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
+                       read, w.map, count, value, ahead, w.find, count, empty ? fmt::format("foundLeaf({:.1f}, -1, p)", kEmptyDistance) : "n" + w.stack.back());
 }
 
 }  // namespace mb

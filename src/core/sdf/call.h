@@ -26,6 +26,13 @@ template <class R, class... A> R call(R (Sdf<R>::*f)(Vec3<R>, A...), Vec3<R> p, 
     const std::tuple<A...> arguments{Read<A>::from(k)...};  // braces fix the order of evaluation
     return std::apply([&](A... a) { return (Sdf<R>{}.*f)(p, a...); }, arguments);
 }
+template <class R, class... A> Vec2<R> span(Vec2<R> (Sdf<R>::*f)(Vec3<R>, Vec3<R>, A...), Vec3<R> o, Vec3<R> d, const double* k) {
+    const std::tuple<A...> arguments{Read<A>::from(k)...};
+    return std::apply([&](A... a) { return (Sdf<R>{}.*f)(o, d, a...); }, arguments);
+}
+template <class R, class... A> constexpr int spanNumbers(Vec2<R> (Sdf<R>::*)(Vec3<R>, Vec3<R>, A...)) {
+    return (0 + ... + Read<A>::size);
+}
 template <class R, class... A> constexpr int argumentNumbers(R (Sdf<R>::*)(Vec3<R>, A...)) {
     return (0 + ... + Read<A>::size);
 }

@@ -101,27 +101,39 @@ constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F 
 }
 #define MB_FUNCTION(name) [](auto s) { return &decltype(s)::name; }
 
+/// The row with its span: where a ray may be inside it.
+template <class F> constexpr Primitive spanned(std::string_view span, F f, Primitive p) {
+    int declared = p.derived.empty() ? 0 : 1;
+    for (const Parameter& parameter : p.parameters) declared += parameter.size;
+    if (declared != sdf::spanNumbers(f(sdf::Sdf<float>{}))) throw "the parameters do not match the span's";
+    p.span = span;
+    p.span_f32 = [](sdf::Vec3<float> o, sdf::Vec3<float> d, const double* k) { return sdf::span(F{}(sdf::Sdf<float>{}), o, d, k); };
+    p.span_f64 = [](sdf::Vec3<double> o, sdf::Vec3<double> d, const double* k) { return sdf::span(F{}(sdf::Sdf<double>{}), o, d, k); };
+    return p;
+}
+#define MB_SPAN(name) #name, MB_FUNCTION(name)
+
 constexpr Primitive kPrimitives[] = {
-    row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
-        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),
-    row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
-        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); }),
-    row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent),
-    row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
-        [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); }),
-    row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
-        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); }),
-    row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
-        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); }),
-    row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
-        [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); }),
-    row({.name = "ellipsoid", .glsl = "sdEllipsoid", .tip = "A ball stretched along the axes", .exact = false, .rises = ellipsoidRises},
+    spanned(MB_SPAN(spanSphere), row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })),
+    spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
+        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); })),
+    spanned(MB_SPAN(spanPlane), row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent)),
+    spanned(MB_SPAN(spanTorus), row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
+        [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); })),
+    spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
+        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); })),
+    spanned(MB_SPAN(spanCapsule), row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
+        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); })),
+    spanned(MB_SPAN(spanCone), row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
+        [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); })),
+    spanned(MB_SPAN(spanEllipsoid), row({.name = "ellipsoid", .glsl = "sdEllipsoid", .tip = "A ball stretched along the axes", .exact = false, .rises = ellipsoidRises},
         kEllipsoid, MB_FUNCTION(sdEllipsoid),
-        [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); }),
-    row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
-        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }),
-    row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
-        prismExtent),
+        [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); })),
+    spanned(MB_SPAN(spanOctahedron), row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })),
+    spanned(MB_SPAN(spanPrism), row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
+        prismExtent)),
 };
 
 }  // namespace

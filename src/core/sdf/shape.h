@@ -55,6 +55,9 @@ struct Primitive : ShapeType {
     double (*f64)(sdf::Vec3<double>, const double*) = nullptr;
     sdf::Dual (*dual)(sdf::Vec3<sdf::Dual>, const double*) = nullptr;
     sdf::Interval (*interval)(sdf::Vec3<sdf::Interval>, const double*) = nullptr;
+    std::string_view span;                     // spanSphere: where a ray may be inside; empty: not known
+    sdf::Vec2<float> (*span_f32)(sdf::Vec3<float> o, sdf::Vec3<float> d, const double*) = nullptr;
+    sdf::Vec2<double> (*span_f64)(sdf::Vec3<double> o, sdf::Vec3<double> d, const double*) = nullptr;
 
     template <class R> R distance(sdf::Vec3<R> p, const LeafNumbers& k) const {
         if constexpr (std::is_same_v<R, float>) return f32(p, k.data());

@@ -166,6 +166,13 @@ Box bounds(const Leaf& leaf) { return placed(leaf.primitive->extent(leaf.numbers
 Box bounds(const Tree& tree, std::span<const Instruction> tape) { return run<Reach>(tree, tape, {}, BoundsVisitor{tree}).box; }
 Box bounds(const Tree& tree) { return bounds(tree, tree.program); }
 
+bool staysWithinLeaves(const Branch& b) { return b.op->kind == Operator::Kind::fold && (!b.op->blends || b.blend == 0); }
+bool staysWithinLeaves(const Tree& tree) {
+    for (const Branch& b : tree.branches)
+        if (!staysWithinLeaves(b)) return false;
+    return true;
+}
+
 bool isFinite(const Box& box) {
     for (std::size_t i = 0; i < 3; ++i)
         if (!std::isfinite(box.lo[i]) || !std::isfinite(box.hi[i])) return false;

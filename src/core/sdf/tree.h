@@ -86,6 +86,10 @@ struct Slope {
 };
 Slope slope(const Tree& tree, glm::dvec3 p);
 
+/// Whether every solid point lies in some leaf: nothing swells, warps or blends.
+bool staysWithinLeaves(const Branch& branch);
+bool staysWithinLeaves(const Tree& tree);
+
 /// A point of a space seen from a frame in it.
 template <class R> sdf::Vec3<R> toFrame(const glm::dmat3& rotation, glm::dvec3 position, const sdf::Vec3<R>& p);
 

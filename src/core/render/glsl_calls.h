@@ -1,0 +1,27 @@
+#pragma once
+// How generated GLSL calls the functions of shaders/sdf/.
+#include "core/sdf/shape.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace mb {
+
+/// ", box3.x_axis.w, …": a type's numbers as the library's functions take them, from the record of that name; `all` of them,
+/// derived ones included.
+inline std::string numbersOf(std::string_view record, std::span<const Parameter> parameters, int all) {
+    static constexpr std::string_view kNumbers[] = {"x_axis.w", "y_axis.w", "z_axis.w", "extra.x"};
+    std::string text;
+    const auto number = [&](int at) { return fmt::format("{}.{}", record, kNumbers[at]); };
+    int at = 0;
+    for (const Parameter& p : parameters) {
+        if (p.size == 3) text += fmt::format(", vec3({}, {}, {})", number(at), number(at + 1), number(at + 2));
+        else text += ", " + number(at);
+        at += p.size;
+    }
+    for (; at < all; ++at) text += ", " + number(at);
+    return text;
+}
+
+}  // namespace mb
