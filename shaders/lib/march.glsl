@@ -29,6 +29,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
     float slope = -1.0;
     bool proved = true;        // all of [0, before] lies in spheres of emptiness
     bool touched = false;      // came within the noise of a surface
+    bool on_surface = false;   // started there
     bool bracketed = false;    // the sign changes in [lo, hi]
     float lo = 0.0, hi = 0.0, f_lo = 0.0, f_hi = 0.0;
     int narrowed = 0;
@@ -37,11 +38,13 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
         if (i >= budget) break;
         float f = march.side * map(ray.origin + ray.direction * t);
         ++march.evaluations;
-        if (i == 0 && f < 0.0) {
-            march.side = -1.0;  // an eye in a solid sees its inside
+        float noise = noiseAt(ray.travelled + t);
+        // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
+        if (f < 0.0 && (i == 0 || (i == 1 && on_surface))) {
+            march.side = -march.side;
             f = -f;
         }
-        float noise = noiseAt(ray.travelled + t);
+        if (i == 0) on_surface = f <= noise;
         float close = closeAt(ray.travelled + t);
 
         // Narrow the bracket. The side that stays twice loses half its weight (the Illinois rule).
