@@ -46,7 +46,11 @@ Surface surfaceAt(Ray ray, March march) {
 
 const float LEAST_WEIGHT = 1.0 / 512.0;  // a reflection fainter than half a step of an 8-bit picture is not followed
 
+// The reflected ray starts on its own line, as far along it as brings it a bias away from the surface: a start moved along
+// the normal would be another ray, and between mirrors the shifts add up. A flat one is moved along the normal as well.
 Ray reflectRay(Ray ray, Surface s) {
     vec3 direction = normalize(reflect(ray.direction, s.normal));
-    return Ray(s.position + s.normal * biasAt(s.travelled), direction, s.travelled);
+    float bias = biasAt(s.travelled), rise = dot(direction, s.normal);
+    float along = bias / max(rise, 0.25);
+    return Ray(s.position + direction * along + s.normal * (bias - along * rise), direction, s.travelled + along);
 }
