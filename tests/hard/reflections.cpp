@@ -135,7 +135,9 @@ TEST_CASE("case 49: a mirror of strength k adds at most k to the power of the bo
     HeadlessRenderer headless;
     // Each surface radiates 1 − k: after n bounces the sum is 1 − k^(n+1). The format ends at 64 bounces, which is what
     // k = 0.91 takes to come within 1/255.
-    for (const auto& [k, bounces] : {std::pair{0.2, 4}, std::pair{0.5, 8}, std::pair{0.8, 25}, std::pair{0.9, 53}, std::pair{0.95, 64}, std::pair{0.99, 64}}) {
+    for (const std::pair<double, int>& mirrored : {std::pair{0.2, 4}, std::pair{0.5, 8}, std::pair{0.8, 25}, std::pair{0.9, 53}, std::pair{0.95, 64}, std::pair{0.99, 64}}) {
+        const double k = mirrored.first;
+        const int bounces = mirrored.second;
         Scene s;
         s.materials = {mirror({1, 1, 1}, {1, 1, 1}, k, 1 - k)};
         addObject(s, "plane", {0, 0, 1, 0}), addObject(s, "plane", {0, 0, -1, -2});
