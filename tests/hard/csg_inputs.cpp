@@ -207,9 +207,14 @@ TEST_CASE("case 33: the GPU's distance lies in the interval of the CPU's, a few 
     constexpr double kWidth = 6 * 0x1p-23;  // of the coordinates: of the point, the position, the rotation and the numbers
     Draw draw(33);
     int outside = 0, compared = 0;
-    for (const Primitive& row : primitives()) {
-        Scene s;
-        addObject(s, row.name, {}, {0.1, -0.2, 0.3});
+    std::vector<Scene> scenes;
+    for (const Primitive& row : primitives()) addObject(scenes.emplace_back(), row.name, {}, {0.1, -0.2, 0.3});
+    for (const Operator& op : operators()) {
+        Scene& s = scenes.emplace_back();
+        const int o = addObject(s, op.name, {}, {0.1, -0.2, 0.3});
+        for (int i = 0; i < std::min(op.max_children, 2); ++i) addObject(s, "box", {1, 1.6, 0.8, 0}, {0.3 * i, 0.2, 0}, o);
+    }
+    for (Scene& s : scenes) {
         s.objects[0].rot = {20, 30, 40};
         std::vector<glm::vec3> points;
         for (int i = 0; i < times(2000); ++i) points.emplace_back(draw.uniform(-2, 2), draw.uniform(-2, 2), draw.uniform(-2, 2));
@@ -217,6 +222,7 @@ TEST_CASE("case 33: the GPU's distance lies in the interval of the CPU's, a few 
         std::vector<GpuSample> gpu;
         REQUIRE(headless.renderer->evaluate(s, points, gpu) == "");
         const Tree tree = makeTree(s);
+        CAPTURE(s.objects[0].type->name);
         for (std::size_t i = 0; i < points.size(); ++i, ++compared) {
             const glm::dvec3 p(points[i]);
             const double w = kWidth * (glm::length(p) + 1);
@@ -225,6 +231,6 @@ TEST_CASE("case 33: the GPU's distance lies in the interval of the CPU's, a few 
             outside += !(f >= bound.lo - w && f <= bound.hi + w);
         }
     }
-    MESSAGE(compared << " points of " << primitives().size() << " rows: " << outside << " outside their interval");
+    MESSAGE(compared << " points of " << scenes.size() << " rows: " << outside << " outside their interval");
     CHECK(outside == 0);
 }
