@@ -66,7 +66,9 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             continue;
         }
         if (i > 0 && step > 0.0) slope = mix((f - f_before) / step, slope, SLOPE_MEMORY);
-        if (was_close && f >= 0.0 && f_before + f + noise < step) proved = false;
+        // The two spheres must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
+        bool left_surface = i == 1 && on_surface;
+        if (was_close && !left_surface && f >= 0.0 && f_before + f < step + noise) proved = false;
 
         if (f < -noise) {
             march.state = HIT;
