@@ -137,6 +137,17 @@ TEST_CASE("case 3: relaxed steps do not pass through a thin wall") {
     }
 }
 
+TEST_CASE("case 3: no ray through a sheet, however thin, is said to miss it") {
+    HeadlessRenderer headless;
+    for (const double thick : {1e-6, 1e-5, 1e-4, 1e-3}) {
+        Scene s;
+        addObject(s, "box", {4, thick, 4, 0});
+        const Measured m = headless.measure(s, cameraAt({0, 3, 0.1}, {0, 0, 0}, 20), {64, 48});
+        MESSAGE("a sheet of " << thick << " m, 3 m away: " << m.counts.pixels.miss << " of 3072 rays miss, " << m.counts.pixels.undecided << " are undecided");
+        CHECK(m.counts.pixels.miss == 0);
+    }
+}
+
 TEST_CASE("case 6: an epsilon near the grid of floats still converges, and none below it can be set") {
     HeadlessRenderer headless;
     Scene s = floorScene();
