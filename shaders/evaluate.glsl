@@ -21,5 +21,5 @@ void main() {
     vec3 p = texelFetch(points, ivec2(gl_FragCoord.xy), 0).xyz;
     out_value = vec4(map(p), gradientAt(p, normalReach(length(p))));
     Nearest found = nearest(p);
-    out_leaf = vec4(float(found.leaf), found.leaf < 0 ? -1.0 : leafRecord(found.leaf).extra.y, found.distance, 0.0);
+    out_leaf = vec4(float(found.leaf), found.leaf < 0 ? -1.0 : leafRecord(found.leaf).x_axis.w, found.distance, 0.0);
 }

@@ -4,10 +4,10 @@
 // A leaf or an operator, placed in the world (relative to the eye) or in the space of the warp above it.
 struct Node {
     vec4 position;  // w: a leaf's material, a fold's blend
-    vec4 x_axis;    // the axes of its frame; w: the first three numbers of its type
-    vec4 y_axis;
+    vec4 numbers;   // what its type's function takes
+    vec4 x_axis;    // the axes of its frame; w: of a leaf, the number of its top-level object
+    vec4 y_axis;    // w: its type's row
     vec4 z_axis;
-    vec4 extra;     // the fourth number; of a leaf, the number of its top-level object
 };
 
 struct Material {
@@ -61,13 +61,16 @@ Material materialRecord(int material) { return materials[material]; }
 #endif
 layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
 
-// A point in a record's frame.
-vec3 local(vec3 p, Node node) {
-    vec3 q = p - node.position.xyz;
-    return vec3(dot(node.x_axis.xyz, q), dot(node.y_axis.xyz, q), dot(node.z_axis.xyz, q));
-}
-
+// A point in a record's frame; a direction in it; and a direction of it. Where nothing in the scene is turned, the axes are
+// not even read.
+#ifdef TURNED
 vec3 turnedTo(vec3 d, Node node) { return vec3(dot(node.x_axis.xyz, d), dot(node.y_axis.xyz, d), dot(node.z_axis.xyz, d)); }
+vec3 turnedBack(vec3 d, Node node) { return node.x_axis.xyz * d.x + node.y_axis.xyz * d.y + node.z_axis.xyz * d.z; }
+#else
+vec3 turnedTo(vec3 d, Node node) { return d; }
+vec3 turnedBack(vec3 d, Node node) { return d; }
+#endif
+vec3 local(vec3 p, Node node) { return turnedTo(p - node.position.xyz, node); }
 
 // How much of a ray is free before another span of it, which may be empty or behind.
 float freeBefore(float free, vec2 span) { return span.y < max(span.x, 0.0) ? free : min(free, max(span.x, 0.0)); }

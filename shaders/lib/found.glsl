@@ -44,6 +44,17 @@ Nearest foundLeaf(float distance, int leaf, vec3 at) {
     return Nearest(distance, leaf, at);
 #endif
 }
+// The same for a march: no more than whose the surface is.
+struct Lead {
+    float distance;
+    int leaf;
+};
+Lead nearer(Lead a, Lead b) {
+    if (b.distance < a.distance) return b;
+    return a;
+}
+Lead foundBoth(float distance, float share, Lead a, Lead b) { return Lead(distance, share > 0.5 ? b.leaf : a.leaf); }
+
 // The nearer of two, the first of equals.
 Nearest nearer(Nearest a, Nearest b) {
     if (b.distance < a.distance) return b;

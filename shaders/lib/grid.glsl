@@ -1,7 +1,7 @@
 // The grid of src/core/sdf/grid.h: the cell a point lies in, and the records its items name. In textures, since a scene of
 // thousands outgrows a uniform block; a linear index i is at (i % ROW, i / ROW).
 
-uniform usampler2D grid_cells;  // x: the distance at the centre, or the first item; y: how many items, or what else it is
+uniform usampler2D grid_cells;  // x: the first item; y: how many, or what else it is; z: the distance at an empty one's centre
 uniform usampler2D grid_items;  // x: code, how it is joined, record; y: the record of the operator that joins it
 const int ROW_BITS = 11;
 const uint FAR_CELL = 0xFFFFFFFFu;
@@ -14,6 +14,7 @@ ivec2 texelPlace(int i) { return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS)
 struct Cell {
     int first, last;  // its items
     float safe;       // no surface is nearer than this, unless an item says so
+    float ball;       // of an empty one: around its middle there is nothing as far as this
     bool empty;       // no surface crosses it
     bool outside;     // of the grid
     vec3 middle;      // of the cell, or outside of all that has bounds, relative to the eye
@@ -24,27 +25,28 @@ Cell cellAt(vec3 p) {
     vec3 at = (p - frame.grid_corner.xyz) / frame.grid_corner.w;
     ivec3 i = ivec3(floor(at));
     ivec3 inside = clamp(i, ivec3(0), frame.grid_size.xyz - 1);
-    uvec2 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xy;
+    uvec3 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xyz;
     vec3 middle = vec3(i) + 0.5;
     float half_side = 0.5;
     if (cell.y == BRICK_CELL) {
         ivec3 k = clamp(ivec3((at - vec3(i)) * float(BRICK)), ivec3(0), ivec3(BRICK - 1));
         middle = vec3(i) + (vec3(k) + 0.5) / float(BRICK);
         half_side = 0.5 / float(BRICK);
-        cell = texelFetch(grid_cells, texelPlace(int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x), 0).xy;
+        cell = texelFetch(grid_cells, texelPlace(int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x), 0).xyz;
     }
 
     // Beyond the grid are the parts without bounds; all else is as near as its box, at least.
     if (i != inside) {
         vec3 out_of = max(max(frame.box_lo.xyz - p, p - frame.box_hi.xyz), 0.0);
-        return Cell(0, frame.grid_size.w, length(out_of), frame.grid_size.w == 0, true, 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz),
+        return Cell(0, frame.grid_size.w, length(out_of), 0.0, frame.grid_size.w == 0, true, 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz),
                     0.5 * (frame.box_hi.xyz - frame.box_lo.xyz));
     }
     bool far = cell.y == FAR_CELL;
-    float safe = uintBitsToFloat(cell.x) - length(at - middle) * frame.grid_corner.w;
+    float ball = uintBitsToFloat(cell.z);
+    vec3 centre = frame.grid_corner.xyz + middle * frame.grid_corner.w;
     int count = far ? 0 : int(cell.y & ~EMPTY_LIST);
-    return Cell(int(cell.x), int(cell.x) + count, far ? safe : EMPTY, (cell.y & EMPTY_LIST) != 0u, false,
-                frame.grid_corner.xyz + middle * frame.grid_corner.w, vec3(half_side * frame.grid_corner.w));
+    return Cell(int(cell.x), int(cell.x) + count, far ? ball - length(p - centre) : EMPTY, ball, (cell.y & EMPTY_LIST) != 0u, false,
+                centre, vec3(half_side * frame.grid_corner.w));
 }
 
 // How far from p along d the cell's list is all there is; outside, how far it is to the grid. A list holds a little beyond
@@ -55,14 +57,20 @@ float freeIn(Cell cell, vec3 p, vec3 d) {
     return cell.outside ? freeBefore(EMPTY, span) : max(span.y, 0.0);
 }
 
-// From t along a ray to the first cell that a surface crosses, or to `far`; `cell` is the one t comes to lie in.
+// From where on a ray may meet anything: the grid's box, where nothing lies outside.
+float enterGrid(vec3 o, vec3 d) {
+    if (frame.grid_size.w != 0) return 0.0;
+    return freeBefore(EMPTY, spanAround(o - 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz), d, 0.5 * (frame.box_hi.xyz - frame.box_lo.xyz)));
+}
+
+// From t along a ray to the first cell that a surface crosses, or to `far`; `cell` is the one t comes to lie in. The ball of
+// emptiness around an empty cell's middle holds the cell.
 const int SKIP_CAP = 4096;
 float skipEmpty(vec3 o, vec3 d, float t, float far, bool skips, out Cell cell) {
-    cell = cellAt(o + d * t);
     for (int i = 0; i < SKIP_CAP; ++i) {
-        if (!skips || !cell.empty || t >= far) break;
-        t += freeIn(cell, o + d * t, d);
         cell = cellAt(o + d * t);
+        if (!skips || !cell.empty || t >= far) break;
+        t = cell.outside ? far : t + max(spanBall(o + d * t - cell.middle, d, cell.ball).y, 0.0);
     }
     if (skips && cell.empty && t < far) cut_short = true;
     return t;

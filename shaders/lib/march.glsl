@@ -1,12 +1,15 @@
 // Sphere tracing with three outcomes.
 //
-// A hit is a change of sign, found by steps no longer than closeAt() and then narrowed. A miss is proved: the spheres of
-// emptiness along the ray overlap all the way. Everything else (the budget ran out, a gap between two spheres was not
-// looked into, a touch within the rounding error) is undecided.
+// A step goes as far as all is known to be empty: the sphere of the distance, or further where the field can look ahead
+// (mapAhead: spans of the primitives, cells of the grid). A hit is a change of sign, found by a step just past that or by steps
+// no longer than closeAt(), and then narrowed. A miss is proved: the pieces of emptiness along the ray overlap all the way.
+// Everything else (the budget ran out, a gap between two pieces was not looked into, a touch within the rounding error) is
+// undecided.
 //
 // Sources: Hart, "Sphere Tracing" (1996); Keinert et al., "Enhanced Sphere Tracing" (2014), for the step back where two
-// spheres are disjoint; Bán and Valasek, "Automatic Step Size Relaxation in Sphere Tracing" (2023), for the length of the
-// step: with the slope m of the distance along the ray, the next sphere touches this one at 2f/(1 - m).
+// spheres are disjoint; Ban and Valasek, "Automatic Step Size Relaxation in Sphere Tracing" (2023), for the length of the
+// step where nothing looks ahead: with the slope m of the distance along the ray, the next sphere touches this one at
+// 2f/(1 - m).
 
 const int STEP_CAP = 16384;        // no loop without a constant bound; the knobs' limit lies below it
 const int NARROWING_STEPS = 4;     // regula falsi on a bracket no longer than closeAt()
@@ -19,28 +22,48 @@ struct March {
     float closest;  // the distance there
     float side;     // 1 for a ray that starts outside, -1 for one that starts inside a solid
     int evaluations;
+    int leaf;       // whose surface is nearest there; -1: not known
 };
 
+// Where the sign changes, and the point to ask next. The side that stays twice loses half its weight (the Illinois rule).
+struct Bracket {
+    float lo, hi, f_lo, f_hi;
+    int narrowed;
+};
+float within(Bracket b) { return b.lo + (b.hi - b.lo) * (b.f_lo / (b.f_lo - b.f_hi)); }
+Bracket narrowed(Bracket b, float t, float f) {
+    if (f < 0.0) { b.hi = t; b.f_hi = f; b.f_lo *= 0.5; }
+    else { b.lo = t; b.f_lo = f; b.f_hi *= 0.5; }
+    ++b.narrowed;
+    return b;
+}
+
 March marchWith(Ray ray, float far, int budget, bool narrows) {
-    March march = March(UNDECIDED, 0.0, INFINITY, 1.0, 0);
+    March march = March(UNDECIDED, 0.0, INFINITY, 1.0, 0, -1);
     float t = 0.0;             // where the field is asked next
     float before = 0.0;        // where it was last accepted, what it was there, and how far from there all is empty
     float f_before = 0.0;
     float reach = 0.0;
     bool proved = true;        // all of [0, before] lies in emptiness
     bool touched = false;      // came within the noise of a surface
-    bool bracketed = false;    // the sign changes in [lo, hi]
-    float lo = 0.0, hi = 0.0, f_lo = 0.0, f_hi = 0.0;
-    int narrowed = 0;
+    bool on_surface = false;   // started there
+    bool bracketed = false;
+    Bracket bracket;
 #ifdef RELAXED
     float slope = -1.0;
+#endif
+#ifdef GRID
+    reach = enterGrid(ray.origin, ray.direction);
+    t = min(reach, far);
 #endif
 
     for (int i = 0; i < STEP_CAP; ++i) {
         if (i >= budget) break;
+        int leaf;
 #ifdef GRID
+        // What no surface crosses is passed without asking.
         Cell cell;
-        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed, cell);
+        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed && march.side > 0.0, cell);
         if (landed > t) {
             if (t - before > reach + noiseAt(ray.travelled + t)) proved = false;
             t = landed;
@@ -50,35 +73,33 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
                 break;
             }
         }
-        vec2 found = mapAhead(ray.origin + ray.direction * t, ray.direction, cell);
+        vec3 found = mapAhead(ray.origin + ray.direction * t, ray.direction, cell, leaf);
 #else
-        vec2 found = mapAhead(ray.origin + ray.direction * t, ray.direction);
+        vec3 found = mapAhead(ray.origin + ray.direction * t, ray.direction, leaf);
 #endif
         float f = march.side * found.x;
         ++march.evaluations;
-        if (i == 0 && f < 0.0) {
-            march.side = -1.0;  // an eye in a solid sees its inside
+        float noise = noiseAt(ray.travelled + t);
+        // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
+        if (f < 0.0 && (i == 0 || (i == 1 && on_surface))) {
+            march.side = -march.side;
             f = -f;
         }
-        float noise = noiseAt(ray.travelled + t);
+        if (i == 0) on_surface = f <= noise;
 
-        // Narrow the bracket. The side that stays twice loses half its weight (the Illinois rule).
         if (bracketed) {
-            if (f < 0.0) { hi = t; f_hi = f; f_lo *= 0.5; }
-            else { lo = t; f_lo = f; f_hi *= 0.5; }
+            bracket = narrowed(bracket, t, f);
             march.t = t;
-            if (abs(f) <= noise || ++narrowed >= NARROWING_STEPS) break;
-            t = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
+            march.leaf = leaf;
+            if (abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS) break;
+            t = within(bracket);
             continue;
         }
 
-        // A long step must land in emptiness that meets the last: else go back and step as far as is safe. A short one, near
-        // a surface, may leave a gap, but then nothing is proved.
         float step = t - before;
-        bool gap = step > reach + abs(f) + noise;
 #ifdef RELAXED
-        bool was_close = f_before < closeAt(ray.travelled + before);
-        if (gap && !was_close && step > reach) {
+        // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
+        if (step > reach + abs(f) + noise && step > reach && f_before >= closeAt(ray.travelled + before)) {
             t = before + reach;
             slope = -1.0;
             continue;
@@ -86,18 +107,24 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
         if (step > 0.0) slope = mix((f - f_before) / step, slope, SLOPE_MEMORY);
 #endif
         if (f < -noise) {
-            march.state = HIT;
             march.t = t;
+            march.leaf = leaf;
+            march.closest = 0.0;
+            march.state = proved || !narrows ? HIT : UNDECIDED;  // whatever stands in the way, a solid in it is a shadow
             if (!narrows) break;
+            // What is proved beyond the last point ends 2 noise before where the sign may change.
             bracketed = true;
-            lo = before; f_lo = f_before;
-            hi = t; f_hi = f;
-            t = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
+            bool ahead = reach > f_before;
+            float lo = ahead ? before + reach : before;
+            bracket = Bracket(lo, t, ahead ? 2.0 * noise * -f / max(t - lo, 3.0 * noise) : f_before, f, 0);
+            t = within(bracket);
             continue;
         }
-        if (gap) proved = false;
+        // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
+        bool left_surface = i == 1 && on_surface;
+        if (i > 0 && !left_surface && reach + f < step + noise) proved = false;
         touched = touched || (f <= noise && i > 0);
-        if (f < march.closest) { march.closest = f; march.t = t; }
+        if (f < march.closest) { march.closest = f; march.t = t; march.leaf = leaf; }
         before = t;
         f_before = max(f, 0.0);
         reach = max(f_before, march.side * found.y - 2.0 * noise);
@@ -106,7 +133,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             break;
         }
         float close = closeAt(ray.travelled + t);
-        float ahead = max(reach, close);
+        float ahead = reach > f ? reach + found.z * closeAt(ray.travelled + t + reach) : max(f, close);
 #ifdef RELAXED
         if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION)));
 #endif

@@ -1,9 +1,11 @@
 // The surface's normal: central differences of the field.
 
-// The reach of the differences: a share of the distance travelled, at least well above the noise, and a power of two, so
-// that the six points are exact neighbours of p and rounding enters only through the field.
+// The reach of the differences: a share of the distance travelled, no more than half a pixel (a narrow view brings near
+// what is far), at least well above the noise, and a power of two, so that the six points are exact neighbours of p and
+// rounding enters only through the field.
 float normalReach(float travelled) {
-    float h = max(frame.reach.z * travelled, 64.0 * noiseAt(travelled));
+    float pixel = frame.right.w != 0.0 ? frame.forward.w : frame.forward.w * travelled;
+    float h = max(min(frame.reach.z * travelled, 0.5 * pixel), 64.0 * noiseAt(travelled));
     return intBitsToFloat(floatBitsToInt(h) & 0x7F800000);
 }
 
@@ -19,9 +21,31 @@ vec3 gradientAt(vec3 p, float h) {
     return gradient / (2.0 * h);
 }
 
-// A unit vector out of the solid on the side the ray came from; against the ray where the field has no slope.
+// A unit vector out of the solid on the side the ray came from; against the ray where the field has no slope. Where two
+// surfaces lie within the differences' reach it may come out turned away from the ray: then it is turned to lie across it.
 vec3 normalAt(vec3 p, float travelled, float side, vec3 direction) {
     vec3 g = gradientAt(p, normalReach(travelled)) * side;
+    g -= max(dot(g, direction), 0.0) * direction;
     float size = length(g);
     return size > 1e-6 ? g / size : -direction;
 }
+
+#ifdef LEAF_SURFACE
+// The normal of one leaf, at a point of its frame, by differences of its distance alone: an edge between two leaves is sharp.
+// Of what is taken away the inside is seen, so that the sign is the one that faces the ray.
+vec3 leafNormal(vec3 at, Node node, float h, vec3 direction) {
+    vec3 gradient = vec3(0.0);
+    int code = int(node.y_axis.w);
+    for (int i = 0; i < 6; ++i) {
+        int axis = i >> 1;
+        vec3 along = vec3(axis == 0, axis == 1, axis == 2) * ((i & 1) == 0 ? 1.0 : -1.0);
+        gradient += along * leafDistance(code, at + along * h, node);
+    }
+    touches += 6;
+    count(NORMAL, 0);
+    vec3 g = turnedBack(gradient, node) / (2.0 * h);
+    g *= dot(g, direction) > 0.0 ? -1.0 : 1.0;
+    float size = length(g);
+    return size > 1e-6 ? g / size : -direction;
+}
+#endif

@@ -19,9 +19,20 @@ void test_a_normal_of_a_sphere_points_from_its_centre() {
     for (int i = 0; i < 20; ++i) {
         float a = 0.37 * float(i), b = 0.21 * float(i);
         vec3 out_of = vec3(cos(a) * cos(b), sin(b), sin(a) * cos(b));
-        vec3 normal = normalAt(2.0 * out_of, 10.0, 1.0, vec3(0.0, 0.0, -1.0));
+        vec3 normal = normalAt(2.0 * out_of, 10.0, 1.0, -out_of);
         CHECK(near(length(normal), 1.0));
         CHECK(distance(normal, out_of) < 1e-3);
+    }
+}
+
+void test_a_normal_is_never_turned_away_from_the_ray() {
+    for (int i = 0; i < 20; ++i) {
+        float a = 0.37 * float(i);
+        vec3 out_of = vec3(cos(a), sin(a), 0.0), ray = normalize(vec3(0.3, 1.0, -0.2));
+        vec3 normal = normalAt(2.0 * out_of, 10.0, 1.0, ray);
+        CHECK(near(length(normal), 1.0));
+        CHECK(dot(normal, ray) < 1e-6);
+        if (dot(out_of, ray) < 0.0) CHECK(distance(normal, out_of) < 1e-3);
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace mb {
 namespace {
 
@@ -55,6 +57,18 @@ std::int64_t iterations(const RenderKnobs& knobs, bool reflects, bool shadows, i
     return look + bounces * (look + knobs.march_steps + look + normal + look + lights * light + look);
 }
 
+/// The first leaf with a number that is none, as a sentence, or nothing: min and max drop a NaN, and the shape would be
+/// missing from the picture without a word.
+std::string notFinite(const Scene& scene, const Tree& tree) {
+    for (const Leaf& leaf : tree.leaves) {
+        double sum = leaf.position.x + leaf.position.y + leaf.position.z;
+        for (int axis = 0; axis < 3; ++axis) sum += leaf.rotation[axis].x + leaf.rotation[axis].y + leaf.rotation[axis].z;
+        for (const double x : leaf.numbers) sum += x;
+        if (!std::isfinite(sum)) return fmt::format("object '{}' has a number that is not finite", label(scene, leaf.index));
+    }
+    return {};
+}
+
 }  // namespace
 
 std::span<const Effect> effects() { return kEffects; }
@@ -77,7 +91,8 @@ Plan makePlan(const Scene& scene, const Tree& tree) {
     int batch = lights;
     while (batch > 1 && cost(batch) > kLoopBudget) batch = (batch + 1) / 2;
     plan.loop_iterations = cost(batch);
-    if (plan.loop_iterations > kLoopBudget) {
+    plan.refused = notFinite(scene, tree);
+    if (plan.refused.empty() && plan.loop_iterations > kLoopBudget) {
         plan.refused = fmt::format(
             "render: march_steps:{} and shadow_steps:{} with reflections:{} may take {} loop iterations a pixel, and software OpenGL "
             "ends a shader at {}: lower one of them until they need at most {}",

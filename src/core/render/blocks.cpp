@@ -17,8 +17,8 @@ GpuMaterial packMaterial(const Material& m) {
     return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}};
 }
 
-GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, const LeafNumbers& k, double object) {
-    return {with(position, w), with(rotation[0], k[0]), with(rotation[1], k[1]), with(rotation[2], k[2]), {k[3], object, 0, 0}};
+GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, const LeafNumbers& k, double object, std::ptrdiff_t row) {
+    return {with(position, w), glm::vec4(k[0], k[1], k[2], k[3]), with(rotation[0], object), with(rotation[1], static_cast<double>(row)), with(rotation[2], 0)};
 }
 
 /// The largest number the leaf's distance may be computed from: of a bounded one its size, of an unbounded one how far its
@@ -42,7 +42,7 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
         const auto [number, is_new] = numbers.try_emplace(leaf.material, static_cast<int>(numbers.size()));
         if (is_new) packed.materials.push_back(packMaterial(materialOf(scene, leaf.material)));
         const glm::dvec3 position = leaf.warps > 0 ? leaf.position : leaf.position - origin;
-        packed.leaves.push_back(packNode(position, number->second, leaf.rotation, leaf.numbers, leaf.object));
+        packed.leaves.push_back(packNode(position, number->second, leaf.rotation, leaf.numbers, leaf.object, leaf.primitive - primitives().data()));
         packed.reach = std::max(packed.reach, static_cast<float>(reachOf(leaf, position)));
     }
     packed.reach *= static_cast<float>(1 + tree.warps);  // each warp rounds the point once more
@@ -51,7 +51,7 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
     packed.materials.resize(std::bit_ceil(std::max(packed.materials.size(), kFewest)), packMaterial({}));
     for (const Branch& branch : tree.branches)
         packed.branches.push_back(packNode(branch.warps > 0 ? branch.position : branch.position - origin, branch.blend, branch.rotation,
-                                           branch.numbers, 0));
+                                           branch.numbers, 0, branch.op - operators().data()));
     for (const Light& light : scene.lights)
         packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});
     return packed;
@@ -82,7 +82,7 @@ std::span<const BlockMember> blockMembers() {
         MB_AT(GpuFrame, grid_corner, "frame.grid_corner"), MB_AT(GpuFrame, box_lo, "frame.box_lo"), MB_AT(GpuFrame, box_hi, "frame.box_hi"),
         MB_AT(GpuFrame, grid_size, "frame.grid_size"),
         MB_AT(GpuNode, position, "leaves[0].position"), MB_AT(GpuNode, x_axis, "leaves[0].x_axis"),
-        MB_AT(GpuNode, y_axis, "leaves[0].y_axis"), MB_AT(GpuNode, z_axis, "leaves[0].z_axis"), MB_AT(GpuNode, extra, "leaves[0].extra"),
+        MB_AT(GpuNode, y_axis, "leaves[0].y_axis"), MB_AT(GpuNode, z_axis, "leaves[0].z_axis"), MB_AT(GpuNode, numbers, "leaves[0].numbers"),
         MB_AT(GpuMaterial, color, "materials[0].color"), MB_AT(GpuMaterial, color2, "materials[0].color2"),
         MB_AT(GpuMaterial, phong, "materials[0].phong"), MB_AT(GpuLight, position, "lights[0].position"),
         MB_AT(GpuLight, color, "lights[0].color"),

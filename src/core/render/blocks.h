@@ -12,7 +12,7 @@
 namespace mb {
 
 struct GpuNode {
-    glm::vec4 position, x_axis, y_axis, z_axis, extra;
+    glm::vec4 position, numbers, x_axis, y_axis, z_axis;
 };
 struct GpuMaterial {
     glm::vec4 color, color2, phong;

@@ -100,6 +100,7 @@ std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) 
     else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
     for (const Plan::Called& c : plan.called)
         if (!c.effect->define.empty()) text += fmt::format("#define {}\n", c.effect->define);
+    if (sizes.turned) text += "#define TURNED\n";
     if (counted) text += "#define COUNTED\n";
     return text;
 }

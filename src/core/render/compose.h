@@ -44,6 +44,7 @@ std::string gridGlsl(const Tree& tree);
 /// The definitions above a shader: array sizes, and the switches of the effects called for.
 struct Sizes {
     std::size_t leaves, branches, materials, lights;
+    bool turned = true;  // some leaf or operator has other axes than its space
 };
 std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid = false);
 

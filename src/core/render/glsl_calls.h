@@ -8,10 +8,10 @@
 
 namespace mb {
 
-/// ", box3.x_axis.w, …": a type's numbers as the library's functions take them, from the record of that name; `all` of them,
+/// ", box3.numbers.x, …": a type's numbers as the library's functions take them, from the record of that name; `all` of them,
 /// derived ones included.
 inline std::string numbersOf(std::string_view record, std::span<const Parameter> parameters, int all) {
-    static constexpr std::string_view kNumbers[] = {"x_axis.w", "y_axis.w", "z_axis.w", "extra.x"};
+    static constexpr std::string_view kNumbers[] = {"numbers.x", "numbers.y", "numbers.z", "numbers.w"};
     std::string text;
     const auto number = [&](int at) { return fmt::format("{}.{}", record, kNumbers[at]); };
     int at = 0;

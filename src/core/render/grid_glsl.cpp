@@ -76,8 +76,12 @@ struct Flavour {
 };
 constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", "leafDistance(item.code, at, node)", "min(top, value)", "foldDistances(item.how, top, value, k)",
                        "top = wrapDistance(item.code, top, at, node)", "min(top, cell.safe)"};
-constexpr Flavour kAhead{"float", "vec2 mapAhead(vec3 p, vec3 d, Cell cell)", kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap,
-                         "vec2(min(top, cell.safe), free)", true};
+constexpr std::string_view kAheadHead = "vec3 mapAhead(vec3 p, vec3 d, Cell cell, out int leaf)";
+constexpr Flavour kAhead{"float", kAheadHead, kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap, "vec3(min(top, cell.safe), free, free < exit ? 1.0 : 0.0)", true};
+/// Where every surface is one leaf's own, the march keeps whose.
+constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(leafDistance(item.code, at, node), item.record)", "nearer(top, value)",
+                        "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
+                        "", "vec3(min(top.distance, cell.safe), free, free < exit ? 1.0 : 0.0)", true};
 constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(leafDistance(item.code, at, node), item.record, at)",
                            "nearer(top, value)",
                            "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
@@ -103,7 +107,7 @@ std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
                                    "    for (; i < cell.last; ++i) {{\n        Item item = itemAt(i);\n        Node node = recordAt(item.record);\n"
                                    "        vec3 at = local(q, node);\n",
                                    f.type, f.head, f.empty, registers(f.type, "top", stack),
-                                   registers("vec3", "q", warps + 1) + (f.looks_ahead ? "    float free = freeIn(cell, p, d);\n" : ""),
+                                   registers("vec3", "q", warps + 1) + (f.looks_ahead ? "    float exit = freeIn(cell, p, d), free = exit;\n" : ""),
                                    f.looks_ahead ? "" : "    Cell cell = cellAt(p);\n");
     const std::string span = f.looks_ahead ? " free = freeBefore(free, leafSpan(item.code, at, turnedTo(d, node), node));" : "";
     if (used.plain()) {
@@ -129,7 +133,8 @@ std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
         if (!used.folds.empty())
             text += fmt::format("        else {{ float k = recordTexel(item.joined * NODE_TEXELS).w;{} top = {}; }}\n", f.looks_ahead ? " if (k > 0.0) free = 0.0;" : "", f.fold);
     }
-    return text + fmt::format("    }}\n    if (i < cell.last) cut_short = true;\n    return {};\n}}\n", f.result);
+    return text + fmt::format("    }}\n    if (i < cell.last) cut_short = true;\n{}    return {};\n}}\n",
+                              !f.looks_ahead ? "" : f.type == "Lead" ? "    leaf = top.leaf;\n" : "    leaf = -1;\n", f.result);
 }
 
 }  // namespace
@@ -138,8 +143,9 @@ std::string gridGlsl(const Tree& tree) {
     const Used used = usedBy(tree);
     const int stack = itemStack(tree, tree.program);
     if (used.leaves.empty()) return sceneGlsl(tree);
-    return "#include \"lib/grid.glsl\"\nvoid readScene() {}\n" + choosers(used) + runner(kMap, used, stack, tree.warps) +
-           runner(kAhead, used, stack, tree.warps) + runner(kNearest, used, stack, tree.warps);
+    const bool own = staysWithinLeaves(tree) && std::ranges::all_of(tree.branches, [](const Branch& b) { return b.op->blends; });
+    return fmt::format("#define {}\n#include \"lib/grid.glsl\"\nvoid readScene() {{}}\n", own ? "LEAF_SURFACE" : "RELAXED") + choosers(used) + runner(kMap, used, stack, tree.warps) +
+           runner(own ? kLead : kAhead, used, stack, tree.warps) + runner(kNearest, used, stack, tree.warps);
 }
 
 }  // namespace mb

@@ -14,7 +14,10 @@ namespace {
 constexpr std::size_t kProgramsKept = 32;
 constexpr int kChannelAttachments = 6;
 
-template <class T> std::size_t bytes(const std::vector<T>& v) { return std::max<std::size_t>(v.size(), 1) * sizeof(T); }
+bool isTurned(const Tree& tree) {
+    const auto turned = [](const auto& x) { return x.rotation != glm::dmat3(1); };
+    return std::ranges::any_of(tree.leaves, turned) || std::ranges::any_of(tree.branches, turned);
+}
 
 }  // namespace
 
@@ -183,7 +186,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
 
 const Program* Renderer::program(Variant variant, const Tree& tree, const Ready& ready, std::string& why) {
     const Packed& packed = ready.packed;
-    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size()};
+    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), isTurned(tree)};
     Texts texts = shaderLibrary();
     texts["scene.glsl"] = ready.grid ? gridGlsl(tree) : sceneGlsl(tree);
     const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",

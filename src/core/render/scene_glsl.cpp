@@ -111,9 +111,9 @@ std::string sceneGlsl(const Tree& tree) {
     const std::string count = fmt::format("    touches += {};\n", tree.leaves.size());
     // What lies where its primitives do can be looked ahead for; what swells or warps them cannot.
     const std::string ahead = staysWithinLeaves(tree)
-                                  ? fmt::format("vec2 mapAhead(vec3 p, vec3 d) {{\n    float free = {:.1f};\n{}{}    return vec2({}, free);\n}}\n",
+                                  ? fmt::format("vec3 mapAhead(vec3 p, vec3 d, out int leaf) {{\n    leaf = -1;\n    float free = {:.1f};\n{}{}    return vec3({}, free, 1.0);\n}}\n",
                                                 kEmptyDistance, w.ahead, count, value)
-                                  : std::string("#define RELAXED\nvec2 mapAhead(vec3 p, vec3 d) { return vec2(map(p), 0.0); }\n");
+                                  : std::string("#define RELAXED\nvec3 mapAhead(vec3 p, vec3 d, out int leaf) {\n    leaf = -1;\n    return vec3(map(p), 0.0, 0.0);\n}\n");
     return fmt::format("{}void readScene() {{\n{}}}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
                        read, w.map, count, value, ahead, w.find, count, empty ? fmt::format("foundLeaf({:.1f}, -1, p)", kEmptyDistance) : "n" + w.stack.back());
 }

@@ -31,7 +31,7 @@ int itemStack(const Tree& tree, std::span<const Instruction> tape);
 
 struct GridCell {
     enum class Kind : std::uint32_t { far, list, brick } kind = Kind::far;
-    float safe = 0;              // far: no surface is nearer to the cell's centre
+    float safe = 0;              // of an empty one: no surface is nearer to the cell's centre
     std::uint32_t first = 0, count = 0;            // list: its items; brick: its first cell
     std::uint32_t tape_first = 0, tape_count = 0;  // list: the same as instructions
     bool empty = true;           // no surface crosses it: a ray may pass without asking

@@ -53,13 +53,15 @@ RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double
     Marcher march{tree, origin, direction / length};
     const double reach = glm::length(origin);
     double side = 1, t = 0, before = 0, f_before = 0;
-    bool proved = true;
+    bool proved = true, on_surface = false;
     end.closest = std::numeric_limits<double>::infinity();
     while (march.evaluations < kBudget) {
         double f = side * march(t);
         if (std::isnan(f)) break;
-        if (march.evaluations == 1 && f < 0) side = -1, f = -f;
         const double noise = kNoise * (reach + t);
+        // Of a start on a surface, the next point says on which side the way leads.
+        if (f < 0 && (march.evaluations == 1 || (march.evaluations == 2 && on_surface))) side = -side, f = -f;
+        if (march.evaluations == 1) on_surface = f <= noise;
         if (f < -noise) {
             end.state = RayState::hit;
             end.t = narrow(march, side, before, t);
