@@ -38,7 +38,7 @@ Marches marches(const Model& model, glm::ivec2 size, const Channels* channels) {
     const double pixel = 2 * viewOf(model.camera).half / size.y;
     const auto tolerance = [&](double t) { return model.camera.ortho > 0 ? kTolerance : std::max(1e-4, pixel / 2 * t); };
     Marches m;
-    m.stride = std::max(4, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(size.x) * size.y * model.n / 4e6))));  // seconds
+    m.stride = std::max(4, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(size.x) * size.y * model.n / 1.7e7))));  // seconds
     for (int y = m.stride / 2; y < size.y; y += m.stride)
         for (int x = m.stride / 2; x < size.x; x += m.stride) {
             m.pixels += 1;

@@ -79,6 +79,7 @@ void compare(Bench& bench, std::string_view family, int n) {
 void povrayFigure(Bench& bench) {
     if (!Povray::available()) return bench.print({{"figure", "povray"}, {"skipped", "there is no povray on PATH (Debian: apt-get install povray)"}});
     for (const int n : sizesOf(bench, {10, 100, 1000, 10'000})) compare(bench, "union", n);
+    if (bench.options.quick) return;
     for (const std::string_view family : {"carved", "tree"})
         for (const int n : sizesOf(bench, {10, 100, 1000})) compare(bench, family, n);
 }
