@@ -35,6 +35,7 @@ Errors errorsOf(const Surfaces& surfaces, const TruthPicture& truth) {
     const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(errors.pixels); };
     errors.left_out = share(left_out), errors.undecided = share(undecided);
     errors.wrong = share(wrong), errors.wrong_object = share(wrong_object);
+    errors.wrong_depth = share(static_cast<std::size_t>(std::ranges::count_if(depths, [](double d) { return d > kDepthTolerance; })));
     if (!depths.empty()) errors.depth_median = median(depths), errors.depth_max = *std::ranges::max_element(depths);
     return errors;
 }
@@ -47,7 +48,10 @@ void to_json(nlohmann::ordered_json& json, const Errors& errors) {
     json = {{"pixels", errors.pixels}, {"wrong", rounded(errors.wrong)}, {"wrong_object", rounded(errors.wrong_object)},
             {"undecided", rounded(errors.undecided)}};
     if (errors.left_out > 0) json["left_out"] = rounded(errors.left_out);
-    if (errors.depth_max > 0) json["depth_median"] = rounded(errors.depth_median), json["depth_max"] = rounded(errors.depth_max);
+    if (errors.depth_max > 0) {
+        json["wrong_depth"] = rounded(errors.wrong_depth);
+        json["depth_median"] = rounded(errors.depth_median), json["depth_max"] = rounded(errors.depth_max);
+    }
 }
 
 }  // namespace mb::bench

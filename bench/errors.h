@@ -21,8 +21,10 @@ struct Errors {
     double left_out = 0, undecided = 0;
     double wrong = 0;                   // a hit for a miss, or a miss for a hit
     double wrong_object = 0;            // a hit, but of another object
+    double wrong_depth = 0;             // the right object, but more than kDepthTolerance from where it is
     double depth_median = 0, depth_max = 0;  // m, of |depth − truth| where the object is right
 };
+inline constexpr double kDepthTolerance = 2e-3;  // m: two tolerances of plain sphere tracing to a millimetre
 Errors errorsOf(const Surfaces& surfaces, const TruthPicture& truth);
 
 /// Whether a is at most as far from the truth as b; an undecided pixel counts as a wrong one.

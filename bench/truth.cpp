@@ -119,7 +119,7 @@ std::optional<Hit> firstHit(const Model& model, const Ray& ray) {
 }
 
 TruthPicture truthOf(const Model& model, glm::ivec2 size) {
-    const double spans = model.blends ? 4e6 : 4e7;  // a marched ray takes some ten times as long
+    const double spans = model.blends ? 4e6 : 2e8;  // a marched ray takes some ten times as long
     const double asked = static_cast<double>(size.x) * size.y * model.n;
     return truthOf(model, size, std::max(1, static_cast<int>(std::ceil(std::sqrt(asked / spans)))));
 }

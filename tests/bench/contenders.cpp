@@ -41,6 +41,7 @@ TEST_CASE("errors: each pixel is counted once") {
     CHECK(e.undecided == doctest::Approx(1 / 6.0));
     CHECK(e.left_out == doctest::Approx(1 / 6.0));
     CHECK(e.depth_max == doctest::Approx(0.5));
+    CHECK(e.wrong_depth == doctest::Approx(1 / 6.0));
     CHECK(noWorse(e, e));
     Errors worse = e;
     worse.undecided += 0.1;

@@ -53,7 +53,7 @@ Seen marched(const Model& model, int stride) {
 
 }  // namespace
 
-TEST_CASE("the union's check values, published with the scene's description") {
+TEST_CASE("the union's check values: the pixels and the depth that plain sphere tracing to a millimetre finds") {
     struct Row {
         int n, stride;
         double hits, mean_z, within;  // % of pixels
