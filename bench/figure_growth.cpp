@@ -43,20 +43,18 @@ void growthFigure(Bench& bench) {
     std::vector<Contender> contenders;
     for (const Size& size : sizes) contenders.push_back(marchbox(bench, size.scene));
     bench.say("growth: taking turns");
-    const auto ms = takeTurns(contenders, bench.options.rounds);
+    const Turns turns = takeTurns(contenders, bench.options.rounds);
 
-    const auto& unit_ms = ms[static_cast<std::size_t>(std::distance(sizes.begin(), unit))];
-    for (std::size_t i = 0; Size& size : sizes) {
+    const auto unit_at = static_cast<std::size_t>(std::distance(sizes.begin(), unit));
+    for (std::size_t at = 0; Size& size : sizes) {
+        const std::size_t own = at++;
         Measured measured;
-        const auto& own_ms = ms[i++];
         if (const std::string why = bench.renderer.measure(size.scene, size.scene.cameras[0], bench.options.size, measured); !why.empty()) {
             skip(bench, size.line, why);
             continue;
         }
-        size.line["rounds"] = bench.options.rounds;
-        size.line["ratio_of"] = fmt::format("n/{}", kUnit);
-        size.line["ratio"] = toJson(ratio(own_ms, unit_ms));
-        size.line["ms"] = {{"marchbox", rounded(median(own_ms))}};
+        addRatio(size.line, turns, fmt::format("n/{}", kUnit), own, unit_at);
+        size.line["ms"] = {{"marchbox", rounded(median(turns.ms[own]))}};
         size.line["error"] = {{"marchbox", errorsOf(surfacesOf(measured.channels), truthOf(size.model, bench.options.size))}};
         bench.print(size.line);
     }

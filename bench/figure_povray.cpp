@@ -51,7 +51,7 @@ void compare(Bench& bench, std::string_view family, int n) {
             pov_cpu.push_back(times.cpu_ms);
             return times.trace_ms;
         }};
-    const auto ms = takeTurns(contenders, bench.options.rounds);
+    const Turns turns = takeTurns(contenders, bench.options.rounds);
     const std::vector<glm::vec3> picture = bench.renderer.readPicture();
     Surfaces pov;
     Measured measured;
@@ -62,10 +62,8 @@ void compare(Bench& bench, std::string_view family, int n) {
     const TruthPicture truth = truthOf(model, bench.options.size);
     std::size_t differ = 0;
     for (std::size_t i = 0; i < pov.object.size(); ++i) differ += pov.object[i] != measured.channels.object[i];
-    line["rounds"] = bench.options.rounds;
-    line["ratio_of"] = "povray/marchbox";
-    line["ratio"] = toJson(ratio(ms[1], ms[0]));
-    line["ms"] = {{"marchbox", rounded(median(ms[0]))}, {"povray", rounded(median(ms[1]))}};
+    addRatio(line, turns, "povray/marchbox", 1, 0);
+    line["ms"] = {{"marchbox", rounded(median(turns.ms[0]))}, {"povray", rounded(median(turns.ms[1]))}};
     line["cpu_ms"] = {{"marchbox", rounded(median(own_cpu))}, {"povray", rounded(median(pov_cpu))}};
     line["error"] = {{"marchbox", errorsOf(surfacesOf(measured.channels), truth)}, {"povray", errorsOf(pov, truth)}};
     line["surfaces_differ"] = rounded(static_cast<double>(differ) / static_cast<double>(pov.object.size()));

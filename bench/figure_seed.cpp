@@ -28,7 +28,7 @@ void compare(Bench& bench, int n) {
     if (const std::string why = seed.prepare(); !why.empty()) return skip(bench, line, why);
 
     const Contender contenders[] = {marchbox(bench, scene), [&] { return timeOf([&] { seed.draw(); }); }};
-    const auto ms = takeTurns(contenders, bench.options.rounds);
+    const Turns turns = takeTurns(contenders, bench.options.rounds);
     Measured measured;
     if (const std::string why = bench.renderer.measure(scene, scene.cameras[0], bench.options.size, measured); !why.empty()) return skip(bench, line, why);
 
@@ -36,10 +36,8 @@ void compare(Bench& bench, int n) {
     const SeedPicture picture = seed.read();
     const Errors ours = errorsOf(surfacesOf(measured.channels), truth), seeds = errorsOf(seedSurfaces(picture), truth);
     const double whole = static_cast<double>(std::ranges::count(picture.whole, true)) / static_cast<double>(picture.whole.size());
-    line["rounds"] = bench.options.rounds;
-    line["ratio_of"] = "seed/marchbox";
-    line["ratio"] = toJson(ratio(ms[1], ms[0]));
-    line["ms"] = {{"marchbox", rounded(median(ms[0]))}, {"seed", rounded(median(ms[1]))}};
+    addRatio(line, turns, "seed/marchbox", 1, 0);
+    line["ms"] = {{"marchbox", rounded(median(turns.ms[0]))}, {"seed", rounded(median(turns.ms[1]))}};
     line["error"] = {{"marchbox", ours}, {"seed", seeds}};
     line["no_worse"] = noWorse(ours, seeds);
     line["seed_whole"] = rounded(whole);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace mb::bench {
@@ -27,6 +28,13 @@ std::vector<int> sizesOf(const Bench& bench, std::initializer_list<int> sizes) {
     std::vector<int> wanted(sizes);
     if (bench.options.quick) std::erase_if(wanted, [](int n) { return n > kQuick; });
     return wanted;
+}
+
+void addRatio(Json& line, const Turns& turns, std::string_view ratio_of, std::size_t a, std::size_t b) {
+    line["rounds"] = turns.ms[a].size();
+    line["ratio_of"] = ratio_of;
+    line["ratio"] = toJson(ratio(turns.ms[a], turns.ms[b]));
+    if (turns.foreign_cores) line["foreign_cores"] = std::round(100 * *turns.foreign_cores) / 100;
 }
 
 Contender marchbox(Bench& bench, const Scene& scene) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include <unistd.h>
 
@@ -29,6 +30,12 @@ void checkNames(const std::vector<std::string>& only) {
     for (const std::string& name : only)
         if (std::ranges::find(bench::figures(), name, &bench::Figure::name) == bench::figures().end())
             throw Failure{kCommandFault, fmt::format("--only {}: there are {}", name, figureNames())};
+}
+
+std::uint32_t parseSeed(const Common& common) {
+    if (common.seed > std::numeric_limits<std::uint32_t>::max())
+        throw Failure{kCommandFault, fmt::format("--seed {}: the scenes' generator takes 32 bits", common.seed)};
+    return static_cast<std::uint32_t>(common.seed);
 }
 
 void runRender(const RenderOptions& options, const Common& common) {
@@ -61,7 +68,7 @@ std::function<void()> make(CLI::App& app, Common& common) {
     return [o, &app, &common] {
         if (!o->size.empty()) o->bench.size = parseSize(o->size);
         else if (o->bench.quick) o->bench.size = {64, 64};
-        if (app.count("--seed") > 0) o->bench.seed = static_cast<std::uint32_t>(common.seed);
+        if (app.count("--seed") > 0) o->bench.seed = parseSeed(common);
         runRender(*o, common);
     };
 }

@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(command->name, command->help);
         sub->footer(std::string("Example:\n  ") + command->example);
         sub->add_flag("--quiet", common.quiet, "say nothing but errors");
-        sub->add_option("--seed", common.seed, "of what is random: where the editor's throws begin");
+        sub->add_option("--seed", common.seed, "of what is random: where the editor's throws begin, the benchmarks' scenes");
         runs.push_back(command->make(*sub, common));
         subcommands.push_back(sub);
     }

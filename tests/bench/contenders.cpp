@@ -25,10 +25,10 @@ TEST_CASE("medians and ratios") {
 TEST_CASE("contenders take turns, after one call each that does not count") {
     std::string order;
     const Contender contenders[] = {[&] { order += 'a'; return 1.0; }, [&] { order += 'b'; return 2.0; }};
-    const auto ms = takeTurns(contenders, 3);
+    const Turns turns = takeTurns(contenders, 3);
     CHECK(order == "abababab");
-    CHECK(ms[0] == std::vector<double>{1, 1, 1});
-    CHECK(ms[1] == std::vector<double>{2, 2, 2});
+    CHECK(turns.ms[0] == std::vector<double>{1, 1, 1});
+    CHECK(turns.ms[1] == std::vector<double>{2, 2, 2});
 }
 
 TEST_CASE("errors: each pixel is counted once") {

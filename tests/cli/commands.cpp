@@ -96,7 +96,7 @@ TEST_CASE("help and version; a command line at fault ends with 2") {
           "render " + scene + " -o x.mp4", "render " + scene + " -o x.jpg", "render " + scene + " -o -",
           "render " + scene + " -o x_%04d.png", "render " + scene + " -o x_%04d.mp4 --frames 2", "render " + scene + " -o x.png --at nan",
           "render " + scene + " -o x.png --size 99999x9", "simulate " + scene + " --seconds nan", "simulate " + scene + " --seconds 1 --dt nan",
-          std::string("bench"), std::string("bench nothing"), std::string("bench render --only nonsense"), std::string("bench render --rounds 4"),
+          std::string("bench"), std::string("bench nothing"), std::string("bench render --only nonsense"), std::string("bench render --rounds 4"), std::string("bench render --quick --seed 4294967296"),
           std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
           std::string("--nonsense")}) {
         CAPTURE(arguments);
