@@ -51,11 +51,11 @@ SDF unionSDF(SDF a, SDF b) {
 }
 
 SDF finalSDF(vec3 p) {
-    SDF result = SDF(maxDist, -1, -1);
+    SDF result = SDF(1e9, -1, -1);
     int i = 0;
     for (; i < objectsL; i++) {
         Object object = objects[i];
-        float dist = maxDist;
+        float dist = 1e9;
         switch (int(object.centre.w)) {
         case 0: dist = sphereSDF(p, object.centre.xyz, object.size.x); break;
         case 1: dist = boxSDF(translateSDF(p, object.centre.xyz), object.size.xyz); break;
