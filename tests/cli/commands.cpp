@@ -301,6 +301,10 @@ TEST_CASE("bench render --quick prints a line of JSON a figure") {
         CHECK(json["n"] > 0);
         CHECK(json["width"] == 64);
         CHECK(json["error"]["marchbox"]["wrong"] < 0.002);
+        if (json.contains("march")) {
+            CHECK(json["march"]["plain_over_least"] > 1.5);
+            CHECK(json["march"]["plain_over_least"] < 1.9);
+        }
         if (!json.contains("ratio")) continue;
         CHECK(json["rounds"] == 5);
         CHECK(json["ratio"]["min"] <= json["ratio"]["median"]);
