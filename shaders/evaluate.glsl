@@ -2,11 +2,13 @@
 // The scene's own functions at points read from a texture: what `marchbox eval --on gpu` and the tests ask.
 
 #include "sdf/dialect.glsl"
+#include "sdf/domains.glsl"
 #include "sdf/operators.glsl"
 #include "sdf/primitives.glsl"
 #include "lib/blocks.glsl"
-#include "scene.glsl"
 #include "lib/outcome.glsl"
+#include "lib/found.glsl"
+#include "scene.glsl"
 #include "lib/tolerance.glsl"
 #include "lib/normal.glsl"
 
@@ -19,5 +21,5 @@ void main() {
     vec3 p = texelFetch(points, ivec2(gl_FragCoord.xy), 0).xyz;
     out_value = vec4(map(p), gradientAt(p, normalReach(length(p))));
     Nearest found = nearest(p);
-    out_leaf = vec4(float(found.leaf), found.leaf < 0 ? -1.0 : leaves[found.leaf].extra.y, found.distance, 0.0);
+    out_leaf = vec4(float(found.leaf), found.leaf < 0 ? -1.0 : leafRecord(found.leaf).extra.y, found.distance, 0.0);
 }

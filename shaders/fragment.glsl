@@ -6,11 +6,13 @@
 // world's origin loses nothing; lengths are metres.
 
 #include "sdf/dialect.glsl"
+#include "sdf/domains.glsl"
 #include "sdf/operators.glsl"
 #include "sdf/primitives.glsl"
 #include "lib/blocks.glsl"
-#include "scene.glsl"
 #include "lib/outcome.glsl"
+#include "lib/found.glsl"
+#include "scene.glsl"
 #include "lib/camera.glsl"
 #include "lib/tolerance.glsl"
 #include "lib/march.glsl"
@@ -25,6 +27,7 @@ layout(location = 1) out vec4 out_surface;      // normal, depth
 layout(location = 2) out vec4 out_ray;          // object, steps, state
 layout(location = 3) out vec4 out_evaluations;  // primary, normal, shadow, reflection
 layout(location = 4) out vec4 out_rays;         // shadow, reflection; undecided ones of each
+layout(location = 5) out vec4 out_touched;      // primitives, in turn as evaluations
 #else
 layout(location = 1) out vec4 out_undecided;    // 1 for a pixel whose own ray is
 #endif
@@ -60,6 +63,7 @@ void main() {
     out_ray = vec4(outcome.object, outcome.steps, float(outcome.state), 0.0);
     out_evaluations = vec4(outcome.evaluations);
     out_rays = vec4(outcome.rays);
+    out_touched = vec4(outcome.touched);
 #else
     out_undecided = vec4(outcome.state == UNDECIDED ? 1.0 : 0.0);
 #endif

@@ -1,12 +1,13 @@
 // What the program uploads each frame, in std140. Every member has a twin in src/core/render/blocks.h; a test asks the
 // driver for each offset. Array sizes are written above the shader: they change only with the scene's topology.
 
-struct Leaf {
-    vec4 position;  // of its centre, relative to the eye; w: the material's number
-    vec4 x_axis;    // the leaf's axes in the world; w: the first three numbers of its primitive
+// A leaf or an operator, placed in the world (relative to the eye) or in the space of the warp above it.
+struct Node {
+    vec4 position;  // w: a leaf's material, a fold's blend
+    vec4 x_axis;    // the axes of its frame; w: the first three numbers of its type
     vec4 y_axis;
     vec4 z_axis;
-    vec4 extra;     // the fourth number; the number of its top-level object
+    vec4 extra;     // the fourth number; of a leaf, the number of its top-level object
 };
 
 struct Material {
@@ -32,23 +33,18 @@ struct Frame {
 };
 
 layout(std140) uniform FrameBlock { Frame frame; };
-layout(std140) uniform LeafBlock { Leaf leaves[LEAVES]; };
-layout(std140) uniform BranchBlock { vec4 branches[BRANCHES]; };  // x: the blend
+layout(std140) uniform LeafBlock { Node leaves[LEAVES]; };
+layout(std140) uniform BranchBlock { Node branches[BRANCHES]; };
 layout(std140) uniform MaterialBlock { Material materials[MATERIALS]; };
 layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
 
-// A point in a leaf's frame.
-vec3 local(vec3 p, Leaf leaf) {
-    vec3 q = p - leaf.position.xyz;
-    return vec3(dot(leaf.x_axis.xyz, q), dot(leaf.y_axis.xyz, q), dot(leaf.z_axis.xyz, q));
-}
+Node leafRecord(int leaf) { return leaves[leaf]; }
 
-// What the scene's own text finds at a point: the distance, and the leaf whose surface it is (-1: none).
-struct Nearest {
-    float distance;
-    int leaf;
-};
-Nearest nearer(Nearest a, Nearest b) { return Nearest(min(a.distance, b.distance), b.distance < a.distance ? b.leaf : a.leaf); }
+// A point in a record's frame.
+vec3 local(vec3 p, Node node) {
+    vec3 q = p - node.position.xyz;
+    return vec3(dot(node.x_axis.xyz, q), dot(node.y_axis.xyz, q), dot(node.z_axis.xyz, q));
+}
 
 int marchSteps() { return frame.limits.x; }
 int shadowSteps() { return frame.limits.y; }

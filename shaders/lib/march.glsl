@@ -101,9 +101,9 @@ bool looksLikeSurface(March march) {
 
 void countMarch(int bounce, March march) {
     if (bounce == 0) {
-        outcome.evaluations.x += march.evaluations;
+        count(PRIMARY, march.evaluations);
     } else {
-        outcome.evaluations.w += march.evaluations;
+        count(REFLECTION, march.evaluations);
         outcome.rays.y += 1;
         outcome.rays.w += march.state == UNDECIDED ? 1 : 0;
     }

@@ -9,21 +9,6 @@ struct Surface {
     float ambient, diffuse, specular, shininess, reflectance;
 };
 
-// A field of one metre of a checkerboard in the leaf's frame. The point is moved a little into the solid, so that a
-// surface that lies on a border of two fields (a floor at height 0) falls into one of them everywhere.
-bool isDarkField(vec3 p) {
-    vec3 field = floor(p);
-    return mod(field.x + field.y + field.z, 2.0) != 0.0;
-}
-const float FIELD_INSET = 1e-3;
-
-vec3 materialColor(Material material, vec3 p, vec3 normal, Leaf leaf) {
-#ifdef EFFECT_CHECKER
-    if (material.phong.w != 0.0 && isDarkField(local(p - normal * FIELD_INSET, leaf))) return material.color2.rgb;
-#endif
-    return material.color.rgb;
-}
-
 Surface surfaceAt(Ray ray, March march) {
     Surface s;
     s.position = ray.origin + ray.direction * march.t;
@@ -31,16 +16,15 @@ Surface surfaceAt(Ray ray, March march) {
     s.normal = normalAt(s.position, s.travelled, march.side, ray.direction);
 
     Nearest found = nearest(s.position);
-    outcome.evaluations.y += 1;
-    Leaf leaf = leaves[max(found.leaf, 0)];
-    Material material = materials[int(leaf.position.w)];
-    s.object = leaf.extra.y;
-    s.color = materialColor(material, s.position, s.normal, leaf);
-    s.ambient = material.color.w;
-    s.diffuse = material.color2.w;
-    s.specular = material.phong.x;
-    s.reflectance = material.phong.y;
-    s.shininess = material.phong.z;
+    count(NORMAL, 1);
+    Look look = lookOf(found);
+    s.object = found.leaf < 0 ? -1.0 : leafRecord(found.leaf).extra.y;
+    s.color = look.color.rgb;
+    s.ambient = look.color.w;
+    s.diffuse = look.phong.x;
+    s.specular = look.phong.y;
+    s.reflectance = look.phong.z;
+    s.shininess = look.phong.w;
     return s;
 }
 

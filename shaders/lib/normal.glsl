@@ -15,7 +15,7 @@ vec3 gradientAt(vec3 p, float h) {
         vec3 along = vec3(axis == 0, axis == 1, axis == 2) * ((i & 1) == 0 ? 1.0 : -1.0);
         gradient += along * map(p + along * h);
     }
-    outcome.evaluations.y += 6;
+    count(NORMAL, 6);
     return gradient / (2.0 * h);
 }
 

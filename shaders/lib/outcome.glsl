@@ -14,6 +14,19 @@ struct Outcome {
     float object;      // the top-level object's number; -1 for none
     float steps;
     ivec4 evaluations; // of the scene's distance, by what asked: primary, normal, shadow, reflection
+    ivec4 touched;     // primitives evaluated in them
     ivec4 rays;        // shadow, reflection; undecided ones of each
 };
-Outcome outcome = Outcome(MISS, INFINITY, vec3(0.0), -1.0, 0.0, ivec4(0), ivec4(0));
+Outcome outcome = Outcome(MISS, INFINITY, vec3(0.0), -1.0, 0.0, ivec4(0), ivec4(0), ivec4(0));
+
+const int PRIMARY = 0;
+const int NORMAL = 1;
+const int SHADOW = 2;
+const int REFLECTION = 3;
+
+int touches = 0;  // by the evaluations since the last count
+void count(int kind, int evaluations) {
+    outcome.evaluations[kind] += evaluations;
+    outcome.touched[kind] += touches;
+    touches = 0;
+}

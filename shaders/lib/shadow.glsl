@@ -7,7 +7,7 @@ bool isLit(Surface s, vec3 light) {
     float far = length(way);
     if (far <= 0.0) return true;
     March march = marchShadow(Ray(from, way / far, s.travelled), far, shadowSteps());
-    outcome.evaluations.z += march.evaluations;
+    count(SHADOW, march.evaluations);
     outcome.rays.x += 1;
     outcome.rays.z += march.state == UNDECIDED ? 1 : 0;
     return march.state != HIT && march.side > 0.0;  // a start inside a solid is in its shadow

@@ -2,3 +2,4 @@
 #define real float
 float pick(float s, float a, float b) { return s < 0.0 ? a : b; }
 float square(float a) { return a * a; }
+float nearestWhole(float a) { return floor(a + 0.5); }

@@ -11,7 +11,6 @@ namespace {
 /// What no single key shows: knobs that together ask for more than a shader may do. They stand in the render record, the
 /// only one of the file.
 void addPlanFault(LoadResult& loaded) {
-    if (firstUnevaluated(loaded.scene)) return;
     const Plan plan = makePlan(loaded.scene, makeTree(loaded.scene));
     if (!plan.refused.empty()) loaded.faults.push_back({loaded.render_line, 1, plan.refused});
 }
@@ -27,9 +26,8 @@ std::function<void()> make(CLI::App& app, Common& common) {
             const Exit code = reportFaults(loaded, path, common);
             worst = std::max(worst, code);
             if (code == kDone && !common.quiet)
-                writeText("-", fmt::format("{}: sound: {} objects, {} materials, {} lights{}\n", path, loaded.scene.objects.size(),
-                                           loaded.scene.materials.size(), loaded.scene.lights.size(),
-                                           firstUnevaluated(loaded.scene) ? "; this version cannot draw it" : ""));
+                writeText("-", fmt::format("{}: sound: {} objects, {} materials, {} lights\n", path, loaded.scene.objects.size(),
+                                           loaded.scene.materials.size(), loaded.scene.lights.size()));
         }
         if (worst != kDone) throw Failure{worst, {}};
     };

@@ -2,6 +2,7 @@
 // What the subcommands share: the exit codes, the options every one has, and reading a scene or saying why not.
 #include "core/render/context.h"
 #include "core/scene/text.h"
+#include "core/sdf/tree.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/vec2.hpp>
@@ -19,6 +20,13 @@ struct Failure {
     Exit code;
     std::string message;
 };
+
+/// The scene's tree; a scene that cannot be evaluated is an input's fault.
+inline Tree treeOf(const Scene& scene) {
+    Tree tree = makeTree(scene);
+    if (!tree.fault.empty()) throw Failure{kInputFault, tree.fault};
+    return tree;
+}
 
 /// --quiet and --seed, which every command takes.
 struct Common {

@@ -28,8 +28,7 @@ Counts countsOf(const Scene& scene) {
 
 void run(const Options& options, const Common& common) {
     const Scene scene = readSceneFile(options.scene, options.settings, common);
-    if (const std::string why = whyUnevaluated(scene); !why.empty()) throw Failure{kInputFault, why};
-    const Plan plan = makePlan(scene, makeTree(scene));
+    const Plan plan = makePlan(scene, treeOf(scene));
     const auto evaluations = countsOf(scene).evaluations;
     const auto cost = [&](std::string_view effect) -> std::uint64_t {
         return effect == "shadow" ? evaluations.shadow : effect == "reflection" ? evaluations.reflection : 0;

@@ -84,13 +84,12 @@ std::vector<Sample> evaluateOnGpu(const Scene& scene, const std::vector<glm::dve
 
 void run(const Options& options, const Common& common) {
     const Scene scene = readSceneFile(options.scene, options.settings, common);
-    if (const std::string why = whyUnevaluated(scene); !why.empty()) throw Failure{kInputFault, why};
+    const Tree tree = treeOf(scene);
     const std::vector<glm::dvec3> points = readPoints(options.points);
     std::vector<Sample> samples;
     if (options.on == "gpu") {
         samples = evaluateOnGpu(scene, points);
     } else {
-        const Tree tree = makeTree(scene);
         for (const glm::dvec3& p : points)
             samples.push_back(options.on == "cpu" ? evaluateOnCpu<float>(tree, p) : evaluateOnCpu<double>(tree, p));
     }

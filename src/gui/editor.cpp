@@ -126,7 +126,7 @@ void Editor::insertObject(Object object, int parent) {
 
 /// The height of the topmost surface at x, z that is no further below the point looked at than can be seen; else 0.
 double Editor::surfaceBelow(double x, double z) const {
-    const Tree tree = makeTree(scene_, [&](std::size_t i) { return evaluated(scene_, i); });
+    const Tree tree = makeTree(scene_);
     const double looked_at = orbit_.target.y;
     double top = looked_at;
     for (const Leaf& leaf : tree.leaves)
@@ -143,7 +143,7 @@ glm::dvec3 Editor::standing(const Object& draft) const {
     o.pos = {0, 0, 0}, o.parent = kNoParent, o.material = kNoMaterial, o.hidden = false;
     if (draft.type->isOperator())
         for (Object& child : firstChildren(asOperator(*draft.type))) child.parent = 0, alone.objects.push_back(std::move(child));
-    const double lowest = firstUnevaluated(alone) ? 0 : bounds(makeTree(alone)).lo[1];
+    const double lowest = bounds(makeTree(alone)).lo[1];
     if (!std::isfinite(lowest)) return draft.pos;
     const auto rounded = [](double v, double per_metre) { return std::round(v * per_metre) / per_metre; };
     const double x = rounded(orbit_.target.x, 1e3), z = rounded(orbit_.target.z, 1e3);
@@ -301,7 +301,7 @@ void Editor::keepView() {
 void Editor::resetView() { orbit_ = Orbit::around(defaultCamera(scene_)), ++revision_; }
 
 ObjectId Editor::pick(glm::ivec2 picture, glm::dvec2 point) {
-    if (picture.x < 1 || picture.y < 1 || firstUnevaluated(scene_)) return {};
+    if (picture.x < 1 || picture.y < 1) return {};
     const Camera eye = camera();
     const Ray ray = cameraRay(eye, picture, point);
     const RayEnd end = raycast(makeTree(scene_), ray.origin, ray.direction, scene_.render.max_distance);

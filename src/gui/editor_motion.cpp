@@ -9,7 +9,7 @@ namespace mb {
 
 /// Whether the scene can be stepped; remembers the objects before the first step.
 bool Editor::readyToMove() {
-    if (const std::string why = whyUnevaluated(scene_); !why.empty()) return refuse(why);
+    if (const std::string why = makeTree(scene_).fault; !why.empty()) return refuse(why);
     if (!before_) before_ = scene_.objects;
     return true;
 }
@@ -19,7 +19,7 @@ void Editor::play() {
 }
 
 const PhysicsWorld* Editor::bodies() {
-    return firstUnevaluated(scene_) ? nullptr : &simulation_.ready(scene_);
+    return makeTree(scene_).fault.empty() ? &simulation_.ready(scene_) : nullptr;
 }
 
 void Editor::step() {

@@ -86,8 +86,7 @@ const ShapeType* typeList(const ShapeType* now) {
     for (const Primitive& p : primitives()) line(p);
     ImGui::Separator();
     ImGui::TextDisabled("operators on shapes");
-    for (const Operator& o : operators())
-        if (o.evaluated()) line(o);
+    for (const Operator& o : operators()) line(o);
     return chosen;
 }
 

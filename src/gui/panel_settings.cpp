@@ -26,7 +26,7 @@ std::string massText(const PhysicsWorld* world, const Object& o) {
 }
 
 void drawTotals(const Editor& editor, const PhysicsWorld* world) {
-    if (!world) return ui::remark(whyUnevaluated(editor.scene()));
+    if (!world) return ui::remark(makeTree(editor.scene()).fault);
     const Energy energy = world->energy();
     ImGui::Text("step %llu   awake %d of %zu   contacts %d   removed %d", static_cast<unsigned long long>(editor.simulation().steps()),
                 world->awake(), world->bodies().size(), world->contacts(), world->removed());
@@ -87,7 +87,7 @@ void drawPicture(Ui& ui) {
     ui::heading("What the scene calls for");
     if (ui.planned_revision != editor.revision() && !editor.playing()) {
         ui.planned_revision = editor.revision(), ui.plan = {};
-        if (!firstUnevaluated(editor.scene())) ui.plan = makePlan(editor.scene(), makeTree(editor.scene()));
+        ui.plan = makePlan(editor.scene(), makeTree(editor.scene()));
     }
     for (const Plan::Called& called : ui.plan.called) {
         ImGui::TextUnformatted(called.effect->name.data(), called.effect->name.data() + called.effect->name.size());

@@ -40,8 +40,8 @@ Movable movable(const Scene& scene, std::size_t object) {
         m.radius = o.numbers[0] * o.scale;
         m.mass = o.mass > 0 ? o.mass : o.density * (4.0 / 3 * kPi * m.radius * m.radius * m.radius);
     } else {
-        if (!evaluated(scene, object)) return m.why_not = "its distance cannot be evaluated yet", m;
         const Tree tree = ownShape(scene, object);
+        if (!tree.fault.empty()) return m.why_not = "it cannot be evaluated", m;
         const Box box = bounds(tree);
         double sum = 0;
         for (int i = 0; i < 3; ++i) {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace mb {
 namespace {
 
@@ -20,12 +22,19 @@ double distanceTo(const Box& box, glm::dvec3 p) {
     return std::sqrt(sum);
 }
 
-/// 1 for a leaf that adds, −1 for one that is taken away: walks the program with the leaves each value is made of.
+/// Whether the surface lies elsewhere than on its leaves' own: the tree wraps, warps or morphs.
+bool movesSurfaces(const Tree& tree) {
+    return std::ranges::any_of(tree.branches, [](const Branch& b) { return b.op->kind == Operator::Kind::wrap || !b.op->blends; });
+}
+
+/// 1 for a leaf that adds, −1 for one that is taken away: walks the program with the leaves each value is made of. Where an
+/// operator moves the surface off its leaves' own, all are 0.
 std::vector<signed char> sidesOf(const Tree& tree) {
     struct Range { std::size_t begin, end; };
     std::vector<signed char> side(tree.leaves.size(), 0);
+    if (movesSurfaces(tree)) return side;
     std::vector<Range> stack;
-    for (const Instruction& step : tree.program) {
+    for (const Instruction& step : tree.program) {  // of leaves, folds and joins
         if (step.kind == Instruction::Kind::leaf) {
             side[step.index] = 1;
             stack.push_back({step.index, step.index + 1});
@@ -42,24 +51,15 @@ std::vector<signed char> sidesOf(const Tree& tree) {
 
 }  // namespace
 
-bool evaluated(const Scene& scene, std::size_t object) {
-    for (std::size_t i = object, end = subtreeEnd(scene, object); i < end; ++i)
-        if (const ShapeType& type = *scene.objects[i].type; type.isOperator() && !asOperator(type).evaluated()) return false;
-    return true;
-}
-
 StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes) {
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) {
         if (scene.objects[i].hidden || !wanted(i)) continue;
-        if (!evaluated(scene, i)) {
-            io_notes.push_back(fmt::format("{}: no ball meets it, since its distance cannot be evaluated yet", label(scene, i)));
-            continue;
-        }
         Solid solid{makeTree(scene, [i](std::size_t k) { return k == i; }), {}, {}, false};
+        if (!solid.tree.fault.empty()) io_notes.push_back(fmt::format("no ball meets it: {}", solid.tree.fault));
         if (solid.tree.program.empty()) continue;
         solid.box = bounds(solid.tree);
         solid.side = sidesOf(solid.tree);
-        for (const Branch& b : solid.tree.branches) solid.blended = solid.blended || b.blend > 0;
+        solid.blended = movesSurfaces(solid.tree) || std::ranges::any_of(solid.tree.branches, [](const Branch& b) { return b.blend > 0; });
         solids_.push_back(std::move(solid));
     }
 }

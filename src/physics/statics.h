@@ -5,9 +5,6 @@
 
 namespace mb {
 
-/// Whether an evaluator knows every part of this object.
-bool evaluated(const Scene& scene, std::size_t object);
-
 /// A point of a static surface near a ball.
 struct Touch {
     glm::dvec3 point{0};
@@ -18,7 +15,7 @@ struct Touch {
 class StaticField {
 public:
     StaticField() = default;
-    /// The top-level objects `wanted` says yes to. Those with parts no evaluator knows are left out, and named in notes.
+    /// The top-level objects `wanted` says yes to. Those that cannot be evaluated are left out, and named in notes.
     StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes);
 
     /// The points that are local minima of the distance to the ball's centre, nearer than `margin` to its surface,

@@ -2,11 +2,13 @@
 #include "sdf/primitives.glsl"
 #include "lib/blocks.glsl"
 
+#include "lib/outcome.glsl"
+#include "lib/found.glsl"
+
 int field = 0;
 float map(vec3 p) { return field == 0 ? sdSphere(p, 2.0) : field == 1 ? sdBox(p, vec3(2.0), 0.0) : 1e9; }
-Nearest nearest(vec3 p) { return Nearest(map(p), 0); }
+Nearest nearest(vec3 p) { return foundLeaf(map(p), 0, p); }
 
-#include "lib/outcome.glsl"
 #include "lib/camera.glsl"
 #include "lib/tolerance.glsl"
 #include "lib/march.glsl"
@@ -68,7 +70,7 @@ void test_the_checkerboard_alternates_along_every_axis() {
 
 void test_a_floor_on_a_border_of_two_fields_is_of_one() {
     for (int i = 0; i < 9; ++i) {
-        vec3 p = vec3(0.5, 1e-6 * float(i - 4), 0.5) - vec3(0.0, FIELD_INSET, 0.0);
+        vec3 p = vec3(0.5, 1e-6 * float(i - 4), 0.5);
         CHECK(isDarkField(p));
     }
 }
@@ -95,4 +97,12 @@ void test_evaluations_are_counted_for_what_asked() {
     CHECK(outcome.evaluations.w == 3);
     CHECK(outcome.rays.y == 1);
     CHECK(outcome.rays.w == 1);
+}
+
+void test_primitives_touched_are_counted_once() {
+    ivec4 before = outcome.touched;
+    touches = 7;
+    count(SHADOW, 1);
+    count(SHADOW, 1);
+    CHECK(outcome.touched == before + ivec4(0, 0, 7, 0));
 }

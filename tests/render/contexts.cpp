@@ -55,7 +55,7 @@ TEST_CASE("every member of every block lies where C++ puts it") {
     HeadlessRenderer headless;
     // All switches on and two of everything, so that no member is optimised away.
     Texts texts = shaderLibrary();
-    std::string uses = "#version 330 core\n#include \"lib/blocks.glsl\"\nout vec4 sum;\nvoid main() { sum = branches[1]\n";
+    std::string uses = "#version 330 core\n#include \"lib/blocks.glsl\"\nout vec4 sum;\nvoid main() { sum = branches[0].position\n";
     for (const BlockMember& m : blockMembers()) uses += fmt::format(" + vec4({})\n", m.name);
     texts["offsets.glsl"] = uses + "; }\n";
     const Program program = makeProgram(resolve(texts, "offsets.glsl", head(Plan{}, {2, 2, 2, 2}, false)));
@@ -116,8 +116,8 @@ TEST_CASE("what cannot be drawn says so and leaves the last picture") {
     CHECK(renderer.draw(testScene(), camera, {maxTargetSize() + 1, 1}).find("between 1 and") != std::string::npos);
 
     Scene twisted = testScene();
-    addObject(twisted, "twist", {1});
-    CHECK(renderer.draw(twisted, camera, {40, 30}).find("'twist'") != std::string::npos);
+    addObject(twisted, "plane", {0, 1, 0, 0}, {}, addObject(twisted, "twist", {1}));
+    CHECK(renderer.draw(twisted, camera, {40, 30}).find("(twist) holds a shape without bounds") != std::string::npos);
 
     Scene crowded = testScene();
     for (int i = 0; i < 2000; ++i) addObject(crowded, "sphere", {0.1});

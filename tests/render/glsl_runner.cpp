@@ -56,7 +56,7 @@ GlslResults runGlslTests(std::string_view path, std::string_view text) {
     texts.emplace(path, text);
     texts["prelude.glsl"] = kPrelude;
     texts["main.glsl"] = mainCalling(results.tests);
-    texts["tests.glsl"] = fmt::format("#version 330 core\n#include \"prelude.glsl\"\n#include \"sdf/dialect.glsl\"\n"
+    texts["tests.glsl"] = fmt::format("#version 330 core\n#include \"prelude.glsl\"\n#include \"sdf/dialect.glsl\"\n#include \"sdf/domains.glsl\"\n"
                                       "#include \"{}\"\n#include \"main.glsl\"\n", path);
     const Composed composed = resolve(texts, "tests.glsl", "#define LEAVES 1\n#define BRANCHES 1\n#define MATERIALS 1\n#define LIGHTS 1\n"
                                                           "#define EFFECT_CHECKER\n");

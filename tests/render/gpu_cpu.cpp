@@ -28,7 +28,7 @@ std::vector<Case> cases() {
         all.push_back(std::move(c));
     }
     for (const Operator& row : operators()) {
-        if (!row.evaluated()) continue;
+        if (!row.blends) continue;
         for (const double blend : {0.0, 0.3}) {
             Case c{std::string(row.name) + (blend > 0 ? " with a blend" : ""), {}};
             const int o = addObject(c.scene, row.name, {blend}, {0.1, -0.2, 0.3});
@@ -42,7 +42,17 @@ std::vector<Case> cases() {
             all.push_back(std::move(c));
         }
     }
-    for (int i = 0; i < 3; ++i) {
+    for (const Operator& row : operators()) {
+        if (row.blends) continue;
+        Case c{std::string(row.name), {}};
+        Object o = drawObject(draw, kind, row, 0);
+        o.id = c.scene.newId(), o.pos = {0.1, -0.2, 0.3}, o.rot = {10, 20, 30}, o.scale = 1.4;
+        c.scene.objects.push_back(o);
+        addObject(c.scene, "box", {1.4, 1.2, 1, 0.1}, {0, 0.3, 0}, 0);
+        if (row.min_children > 1) addObject(c.scene, "torus", {0.7, 0.2}, {0, 0.2, 0.1}, 0);
+        all.push_back(std::move(c));
+    }
+    for (int i = 0; i < 6; ++i) {
         Case c{"random tree " + std::to_string(i), {}};
         for (int top = 0; top < 2; ++top) addRandom(c.scene, draw, {.hidden = 0.1});
         all.push_back(std::move(c));
@@ -70,9 +80,10 @@ Errors compare(const Scene& scene, const std::vector<glm::vec3>& points, const s
             continue;
         }
 
-        // Where two leaves are equally near but for rounding, either may be named.
+        // Where two leaves are equally near but for rounding, either may be named; and of copies of one, any.
         const auto seen = [&](int leaf) { return leaf < 0 ? -1 : tree.leaves[static_cast<std::size_t>(leaf)].object; };
-        if (gpu[i].leaf != cpu.leaf) {
+        const auto of = [&](int leaf) { return leaf < 0 ? scene.objects.size() : tree.leaves[static_cast<std::size_t>(leaf)].index; };
+        if (of(gpu[i].leaf) != of(cpu.leaf)) {
             int differs = 1;
             for (const glm::dvec3 by : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
                 for (const double way : {-4 * bound, 4 * bound}) {

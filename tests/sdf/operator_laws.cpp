@@ -23,6 +23,9 @@ double drawDistance(Draw& draw, double other = 0) {
 /// A blend that matters for such distances; now and then a very small one.
 double drawBlend(Draw& draw) { return draw.oneIn(8) ? draw.logUniform(1e-20, 1e-3) : draw.logUniform(1e-3, 1e3); }
 
+/// A third of the time none.
+double drawNumber(const Operator& op, Draw& draw) { return draw.oneIn(3) ? 0 : op.blends ? drawBlend(draw) : draw.uniform(0, 1); }
+
 std::string describe(const Operator& op, double a, double b, double k) { return fmt::format("{}({}, {}, {})", op.name, a, b, k); }
 
 /// What it must be without a blend, by its claims alone: an intersection, a difference, or else a union.
@@ -69,7 +72,7 @@ std::string strayBlend(const Operator& op, Draw& draw) {
 
 std::string steeperThanOne(const Operator& op, Draw& draw) {
     for (int i = 0; i < kDraws; ++i) {
-        const double a = drawDistance(draw), b = drawDistance(draw, a), k = draw.oneIn(3) ? 0 : drawBlend(draw);
+        const double a = drawDistance(draw), b = drawDistance(draw, a), k = drawNumber(op, draw);
         const double a2 = a + draw.uniform(-1, 1) * draw.logUniform(1e-6, 10), b2 = b + draw.uniform(-1, 1) * draw.logUniform(1e-6, 10);
         const double rise = std::fabs(op.fold<double>(a2, b2, k) - op.fold<double>(a, b, k)), step = std::max(std::fabs(a2 - a), std::fabs(b2 - b));
         if (!(rise <= step + 8 * 0x1p-52 * (std::fabs(a) + std::fabs(b) + k + 20)))
@@ -82,7 +85,7 @@ std::string steeperThanOne(const Operator& op, Draw& draw) {
 std::string wrongOrder(const Operator& op, Draw& draw) {
     bool differs = false;
     for (int i = 0; i < kDraws; ++i) {
-        const double a = drawDistance(draw), b = drawDistance(draw, a), k = draw.oneIn(3) ? 0 : drawBlend(draw);
+        const double a = drawDistance(draw), b = drawDistance(draw, a), k = drawNumber(op, draw);
         const bool equal = op.fold<double>(a, b, k) == op.fold<double>(b, a, k);
         if (op.commutative && !equal) return describe(op, a, b, k) + " depends on the order";
         differs = differs || !equal;
@@ -93,7 +96,7 @@ std::string wrongOrder(const Operator& op, Draw& draw) {
 /// A result that lies within the first child, or in all, is never inside where they are not.
 std::string outsideItsChildren(const Operator& op, Draw& draw) {
     for (int i = 0; i < kDraws; ++i) {
-        const double a = drawDistance(draw), b = drawDistance(draw, a), k = draw.oneIn(3) ? 0 : drawBlend(draw), r = op.fold<double>(a, b, k);
+        const double a = drawDistance(draw), b = drawDistance(draw, a), k = drawNumber(op, draw), r = op.fold<double>(a, b, k);
         const double slack = 4 * 0x1p-52 * (std::fabs(a) + std::fabs(b));
         const bool first = r >= a - slack, both = first && r >= b - slack;
         if ((op.first_only && !first) || (op.intersects && !both)) return describe(op, a, b, k) + fmt::format(" = {} is outside its children", r);
@@ -103,21 +106,31 @@ std::string outsideItsChildren(const Operator& op, Draw& draw) {
     return {};
 }
 
-/// The surface shown is the one whose distance the plain operator passes on; of equals, the first.
-std::string wrongSurface(const Operator& op, Draw& draw) {
+/// How much of the second shows is how the value follows it; where all or nothing does, the value is one child's to the bit,
+/// and without a blend it always is, the first's of equals.
+std::string wrongShare(const Operator& op, Draw& draw) {
+    constexpr double h = 1e-7;
     for (int i = 0; i < kDraws; ++i) {
-        const double a = drawDistance(draw), b = drawDistance(draw, a), r = op.fold<double>(a, b, 0);
-        const double second = op.first_only ? -b : b;
-        const bool want = r != a;
-        if (op.takesSecond(a, b) != want || (want && r != second))
-            return describe(op, a, b, 0) + fmt::format(" = {} shows the other one's surface", r);
+        const double a = drawDistance(draw), b = drawDistance(draw, a), k = drawNumber(op, draw);
+        const double r = op.fold<double>(a, b, k), share = op.shareOfSecond<double>(a, b, k), second = op.first_only ? -b : b;
+        if (!(share >= 0 && share <= 1)) return describe(op, a, b, k) + fmt::format(": a share of {}", share);
+        if (share == 0 && r != a) return describe(op, a, b, k) + " is not the first's, though all of it shows";
+        if (share == 1 && r != second) return describe(op, a, b, k) + " is not the second's, though all of it shows";
+        if (op.blends && k == 0 && (share > 0.5) != (r != a)) return describe(op, a, b, k) + " shows the other one's surface";
+        const Interval range = op.shareOfSecond<Interval>({a, a + 0.1}, {b, b + 0.1}, k);
+        if (!(range.lo <= share && share <= range.hi)) return describe(op, a, b, k) + ": the share is not in its interval";
+
+        const double x = draw.uniform(-1, 1), y = draw.uniform(-1, 1), seam = op.blends ? draw.uniform(0.1, 2) : k;
+        const double rise = (op.fold<double>(x, y + h, seam) - op.fold<double>(x, y - h, seam)) / (2 * h);
+        if (!(std::fabs(std::fabs(rise) - op.shareOfSecond<double>(x, y, seam)) < 1e-5))
+            return describe(op, x, y, seam) + fmt::format(" follows the second by {}, its share is {}", rise, op.shareOfSecond<double>(x, y, seam));
     }
     return {};
 }
 
 std::string scalarsDisagree(const Operator& op, Draw& draw) {
     for (int i = 0; i < kDraws; ++i) {
-        const double a = drawDistance(draw), b = drawDistance(draw, a), k = draw.oneIn(3) ? 0 : drawBlend(draw), r = op.fold<double>(a, b, k);
+        const double a = drawDistance(draw), b = drawDistance(draw, a), k = drawNumber(op, draw), r = op.fold<double>(a, b, k);
         if (op.fold<Dual>(Dual(a), Dual(b), k).v != r) return describe(op, a, b, k) + ": the dual's value differs from the double's";
         // A dozen roundings, with the numbers' own, of terms no larger than these; and the square of a
         // very small blend is lost in float.
@@ -139,7 +152,7 @@ std::string scalarsDisagree(const Operator& op, Draw& draw) {
 std::string wrongGradient(const Operator& op, Draw& draw) {
     constexpr double h = 1e-6;
     for (int i = 0; i < kDraws; ++i) {
-        const double a = draw.uniform(-1, 1), b = draw.uniform(-1, 1), k = draw.uniform(0.1, 2);
+        const double a = draw.uniform(-1, 1), b = draw.uniform(-1, 1), k = op.blends ? draw.uniform(0.1, 2) : draw.uniform(0, 1);
         const Dual r = op.fold<Dual>(Dual(a, 1, 0, 0), Dual(b, 0, 1, 0), k);
         const auto by_differences = [&](double da, double db) {
             return (op.fold<double>(a + da, b + db, k) - op.fold<double>(a - da, b - db, k)) / (2 * h);
@@ -156,12 +169,12 @@ std::string wrongGradient(const Operator& op, Draw& draw) {
 
 std::span<const OperatorLaw> operatorLaws() {
     static constexpr OperatorLaw kLaws[] = {
-        {"without a blend it is the plain operator, to the bit", notPlain},
-        {"a blend moves the surface by at most a quarter of it", strayBlend},
+        {"without a blend it is the plain operator, to the bit", notPlain, true},
+        {"a blend moves the surface by at most a quarter of it", strayBlend, true},
         {"it is no steeper than its children", steeperThanOne},
         {"it is commutative if it says so", wrongOrder},
-        {"its result lies where its row says", outsideItsChildren},
-        {"the surface shown is the one it picks", wrongSurface},
+        {"its result lies where its row says", outsideItsChildren, true},
+        {"the share is the value's derivative by the second", wrongShare},
         {"all scalars agree", scalarsDisagree},
         {"gradients match differences", wrongGradient},
     };

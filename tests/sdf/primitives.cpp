@@ -60,7 +60,9 @@ TEST_CASE("both tables are well formed") {
         CHECK(row.min_children >= 1);
         CHECK(row.min_children <= row.max_children);
         // makeTree reads a fold's blend from its first number, and scales it.
-        if (row.evaluated()) CHECK((row.parameters.size() == 1 && row.parameters[0].name == "blend" && row.parameters[0].isLength()));
+        if (row.blends) CHECK((row.parameters.size() == 1 && row.parameters[0].name == "blend" && row.parameters[0].isLength()));
+        if (row.kind == Operator::Kind::fold) CHECK(row.parameters[0].size == 1);
+        CHECK((row.kind == Operator::Kind::copies) == row.glsl.empty());
     }
 }
 

@@ -67,7 +67,8 @@ TEST_CASE("a wrong transform, scale, blend or order is seen") {
     CHECK(seen([](Tree& t) { t.leaves[0].position.x += 1e-9; }));
     CHECK(seen([](Tree& t) { t.leaves[0].rotation = glm::transpose(t.leaves[0].rotation); }));
     CHECK(seen([](Tree& t) { t.leaves[0].numbers[0] *= 1 + 1e-9; }));
-    CHECK(seen([](Tree& t) { if (!t.branches.empty()) t.branches[0].blend *= 1.001; }));
+    CHECK(seen([](Tree& t) { for (Branch& b : t.branches) b.blend *= 1.001; }));
+    CHECK(seen([](Tree& t) { for (Branch& b : t.branches) b.numbers[0] *= 1.001; }));
     CHECK(seen([](Tree& t) { if (t.leaves.size() > 1) std::swap(t.leaves[0], t.leaves[1]); }));
 }
 
@@ -161,7 +162,7 @@ TEST_CASE("a hidden first child is an empty set to take away from") {
 
 TEST_CASE("an operator with one child is that child, and ties go to the first") {
     for (const Operator& op : operators()) {
-        if (!op.evaluated()) continue;
+        if (!op.blends) continue;
         Scene scene;
         const int o = addObject(scene, op.name, {0.3});
         addObject(scene, "sphere", {1}, {0.5, 0, 0}, o);
@@ -206,7 +207,7 @@ TEST_CASE("trees as deep and as wide as a file may make them") {
     Scene leaning;
     parent = kNoParent;
     for (int level = 0; level < 31; ++level) {
-        parent = addObject(leaning, "union", {}, {}, parent);
+        parent = addObject(leaning, "union", {1e-6}, {}, parent);
         addObject(leaning, "sphere", {0.1}, {level * 1.0, 0, 0}, parent);
     }
     addObject(leaning, "sphere", {0.1}, {31, 0, 0}, parent);
@@ -225,7 +226,7 @@ TEST_CASE("trees as deep and as wide as a file may make them") {
     }
 }
 
-TEST_CASE("only what is wanted, and only what can be evaluated") {
+TEST_CASE("only what is wanted, and what cannot be evaluated says why") {
     Scene scene;
     addObject(scene, "sphere", {1}), addObject(scene, "box", {1, 1, 1, 0}, {5, 0, 0});
     const int u = addObject(scene, "union", {}, {0, 5, 0});
@@ -235,11 +236,39 @@ TEST_CASE("only what is wanted, and only what can be evaluated") {
     CHECK(one.leaves[0].object == 1);  // objects keep their numbers
     CHECK(one.leaves[1].object == 2);
     CHECK(one.leaves[1].index == 3);
-    CHECK(!firstUnevaluated(scene));
+    CHECK(makeTree(scene).fault == "");
     for (const Operator& op : operators()) {
-        if (op.evaluated()) continue;
+        if (!op.warp_by) continue;
         Scene with = scene;
-        addObject(with, op.name, {});
-        CHECK(firstUnevaluated(with) == 4u);
+        const int warp = addObject(with, op.name, {0.1});
+        addObject(with, "plane", {0, 1, 0, 0}, {}, warp);
+        const Tree tree = makeTree(with);
+        CHECK(tree.fault.find("without bounds") != std::string::npos);
+        CHECK(tree.fault_object == 4u);
+        CHECK(tree.program.empty());
+        with.objects[4].hidden = true;
+        CHECK(makeTree(with).fault == "");
     }
+    Scene many;
+    const int all = addObject(many, "repeat", {1, 1, 1, 1e6, 1e6, 1e6});
+    addObject(many, "sphere", {0.1}, {}, all);
+    CHECK(makeTree(many).fault.find("1e+18 copies") != std::string::npos);
+}
+
+TEST_CASE("copies are what they say, and a plain union's children are parts of the whole") {
+    Scene scene;
+    const int row = addObject(scene, "repeat", {1, 0, 0, 3, 5, 1}, {0, 1, 0});
+    addObject(scene, "sphere", {0.25}, {0, 0, 0.5}, row);
+    Tree tree = makeTree(scene);
+    CHECK(tree.leaves.size() == 3);  // no copies along an axis whose cell is 0
+    CHECK(tree.parts.size() == 3);
+    for (const double x : {-1.0, 0.0, 1.0}) CHECK(distanceAt(scene, {x, 2, 0.5}) == 0.75);
+    const int mirror = addObject(scene, "mirror", {2});
+    const int both = addObject(scene, "union", {0}, {0, 0, 3}, mirror);
+    addObject(scene, "cone", {0.5, 0, 1}, {0, 5, 0}, both), addObject(scene, "box", {1, 1, 1, 0}, {2, 5, 0}, both);
+    tree = makeTree(scene);
+    CHECK(tree.parts.size() == 7);
+    CHECK(distanceAt(scene, {2, 5, -3}) == -0.5);
+    CHECK(distanceAt(scene, {2, 5, 3}) == -0.5);
+    CHECK(tree.branches.empty());
 }

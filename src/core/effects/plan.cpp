@@ -31,7 +31,7 @@ std::string checkerCalls(const Scene& scene, const Tree& tree) {
 }
 std::string blendCalls(const Scene& scene, const Tree& tree) {
     for (const Branch& b : tree.branches)
-        if (b.blend > 0) return fmt::format("object '{}' (blend:{})", label(scene, b.index), scene.objects[b.index].numbers[0]);
+        if (b.blend > 0) return fmt::format("object '{}' ({}:{})", label(scene, b.index), b.op->parameters[0].name, scene.objects[b.index].numbers[0]);
     return {};
 }
 std::string sampleCalls(const Scene& scene, const Tree&) {
@@ -43,7 +43,7 @@ constexpr Effect kEffects[] = {
     {"shadow", "EFFECT_SHADOW", "one marched ray to each light from each point that faces it", shadowCalls},
     {"reflection", "EFFECT_REFLECTION", "marched rays from mirror to mirror", reflectionCalls},
     {"checker", "EFFECT_CHECKER", "a pattern fixed to the object", checkerCalls},
-    {"blend", "", "rounded seams between an operator's children", blendCalls},
+    {"blend", "EFFECT_BLEND", "rounded seams that carry the colours of both sides", blendCalls},
     {"samples", "", "several rays a pixel", sampleCalls},
 };
 

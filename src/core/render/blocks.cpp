@@ -17,8 +17,12 @@ GpuMaterial packMaterial(const Material& m) {
     return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}};
 }
 
+GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, const LeafNumbers& k, double object) {
+    return {with(position, w), with(rotation[0], k[0]), with(rotation[1], k[1]), with(rotation[2], k[2]), {k[3], object, 0, 0}};
+}
+
 /// The largest number the leaf's distance may be computed from: of a bounded one its size, of an unbounded one how far its
-/// own origin lies from the eye.
+/// own origin lies from the eye; behind a warp, where it lies there.
 double reachOf(const Leaf& leaf, glm::dvec3 position) {
     const Box box = leaf.primitive->extent(leaf.numbers);
     double reach = 0;
@@ -26,7 +30,7 @@ double reachOf(const Leaf& leaf, glm::dvec3 position) {
         const double size = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
         reach = std::max(reach, std::isfinite(size) ? size : glm::length(position));
     }
-    return reach;
+    return leaf.warps > 0 ? reach + glm::length(position) : reach;
 }
 
 }  // namespace
@@ -37,16 +41,17 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
     for (const Leaf& leaf : tree.leaves) {
         const auto [number, is_new] = numbers.try_emplace(leaf.material, static_cast<int>(numbers.size()));
         if (is_new) packed.materials.push_back(packMaterial(materialOf(scene, leaf.material)));
-        const glm::dvec3 position = leaf.position - origin;
-        const LeafNumbers& k = leaf.numbers;
-        packed.leaves.push_back({with(position, number->second), with(leaf.rotation[0], k[0]), with(leaf.rotation[1], k[1]),
-                                 with(leaf.rotation[2], k[2]), {k[3], leaf.object, 0, 0}});
+        const glm::dvec3 position = leaf.warps > 0 ? leaf.position : leaf.position - origin;
+        packed.leaves.push_back(packNode(position, number->second, leaf.rotation, leaf.numbers, leaf.object));
         packed.reach = std::max(packed.reach, static_cast<float>(reachOf(leaf, position)));
     }
+    packed.reach *= static_cast<float>(1 + tree.warps);  // each warp rounds the point once more
     // The array's size is part of the shader: a power of two, so that giving an object another material seldom changes it.
     constexpr std::size_t kFewest = 16;
     packed.materials.resize(std::bit_ceil(std::max(packed.materials.size(), kFewest)), packMaterial({}));
-    for (const Branch& branch : tree.branches) packed.branches.push_back({branch.blend, 0, 0, 0});
+    for (const Branch& branch : tree.branches)
+        packed.branches.push_back(packNode(branch.warps > 0 ? branch.position : branch.position - origin, branch.blend, branch.rotation,
+                                           branch.numbers, 0));
     for (const Light& light : scene.lights)
         packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});
     return packed;
@@ -74,12 +79,12 @@ std::span<const BlockMember> blockMembers() {
         MB_AT(GpuFrame, right, "frame.right"), MB_AT(GpuFrame, up, "frame.up"), MB_AT(GpuFrame, forward, "frame.forward"),
         MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"),
         MB_AT(GpuFrame, background, "frame.background"), MB_AT(GpuFrame, limits, "frame.limits"), MB_AT(GpuFrame, pass, "frame.pass"),
-        MB_AT(GpuLeaf, position, "leaves[0].position"), MB_AT(GpuLeaf, x_axis, "leaves[0].x_axis"),
-        MB_AT(GpuLeaf, y_axis, "leaves[0].y_axis"), MB_AT(GpuLeaf, z_axis, "leaves[0].z_axis"), MB_AT(GpuLeaf, extra, "leaves[0].extra"),
+        MB_AT(GpuNode, position, "leaves[0].position"), MB_AT(GpuNode, x_axis, "leaves[0].x_axis"),
+        MB_AT(GpuNode, y_axis, "leaves[0].y_axis"), MB_AT(GpuNode, z_axis, "leaves[0].z_axis"), MB_AT(GpuNode, extra, "leaves[0].extra"),
         MB_AT(GpuMaterial, color, "materials[0].color"), MB_AT(GpuMaterial, color2, "materials[0].color2"),
         MB_AT(GpuMaterial, phong, "materials[0].phong"), MB_AT(GpuLight, position, "lights[0].position"),
         MB_AT(GpuLight, color, "lights[0].color"),
-        {"leaves[1].position", sizeof(GpuLeaf)}, {"materials[1].color", sizeof(GpuMaterial)}, {"lights[1].position", sizeof(GpuLight)},
+        {"leaves[1].position", sizeof(GpuNode)}, {"materials[1].color", sizeof(GpuMaterial)}, {"lights[1].position", sizeof(GpuLight)},
     };
 #undef MB_AT
     return kMembers;

@@ -11,7 +11,7 @@
 
 namespace mb {
 
-struct GpuLeaf {
+struct GpuNode {
     glm::vec4 position, x_axis, y_axis, z_axis, extra;
 };
 struct GpuMaterial {
@@ -27,8 +27,7 @@ struct GpuFrame {
 
 /// Everything the shader reads of a scene, but the frame: packed anew for each frame, relative to an origin.
 struct Packed {
-    std::vector<GpuLeaf> leaves;
-    std::vector<glm::vec4> branches;
+    std::vector<GpuNode> leaves, branches;
     std::vector<GpuMaterial> materials;  // those that some leaf shows
     std::vector<GpuLight> lights;
     float reach = 0;                     // the largest length a leaf's distance is computed from

@@ -12,7 +12,7 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kProgramsKept = 32;
-constexpr int kChannelAttachments = 5;
+constexpr int kChannelAttachments = 6;
 
 template <class T> std::size_t bytes(const std::vector<T>& v) { return std::max<std::size_t>(v.size(), 1) * sizeof(T); }
 
@@ -79,13 +79,15 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
     eachPass(scene, ready.frame, [&] {
         channels_.clear();
         quad_.draw();
-        const std::vector<float> evaluations = channels_.read(3), rays = channels_.read(4);
+        const std::vector<float> evaluations = channels_.read(3), rays = channels_.read(4), touched = channels_.read(5);
         Counts& c = out.counts;
         c.rays.primary += pixels;
         for (std::size_t i = 0; i < pixels; ++i) {
             const auto count = [&](const std::vector<float>& v, std::size_t k) { return static_cast<std::uint64_t>(v[4 * i + k]); };
-            c.evaluations.primary += count(evaluations, 0), c.evaluations.normal += count(evaluations, 1);
-            c.evaluations.shadow += count(evaluations, 2), c.evaluations.reflection += count(evaluations, 3);
+            const auto byKind = [&](const std::vector<float>& v, Counts::ByKind& sums) {
+                sums.primary += count(v, 0), sums.normal += count(v, 1), sums.shadow += count(v, 2), sums.reflection += count(v, 3);
+            };
+            byKind(evaluations, c.evaluations), byKind(touched, c.touched);
             c.rays.shadow += count(rays, 0), c.rays.reflection += count(rays, 1);
             c.undecided_rays.shadow += count(rays, 2), c.undecided_rays.reflection += count(rays, 3);
         }
@@ -159,8 +161,8 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         ready.why = fmt::format("a picture of {}x{} pixels: each side must be between 1 and {}", size.x, size.y, most);
         return ready;
     }
-    if (ready.why = whyUnevaluated(scene); !ready.why.empty()) return ready;
     const Tree tree = makeTree(scene);
+    if (ready.why = tree.fault; !ready.why.empty()) return ready;
     plan_ = makePlan(scene, tree);
     if (ready.why = plan_.refused; !ready.why.empty()) return ready;
     ready.packed = pack(scene, tree, origin);

@@ -25,7 +25,11 @@ struct Channels {
 
 /// What a frame took, exact and the same on every run.
 struct Counts {
-    struct { std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0; } evaluations;  // normal: with the look-up of the surface's object
+    struct ByKind {
+        std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0;
+    };
+    ByKind evaluations;  // of the scene's distance; normal: with the look-up of the surface's object
+    ByKind touched;      // primitives' distances evaluated in them
     struct { std::uint64_t primary = 0, shadow = 0, reflection = 0; } rays;
     struct { std::uint64_t shadow = 0, reflection = 0; } undecided_rays;
     struct { std::uint64_t hit = 0, miss = 0, undecided = 0; } pixels;

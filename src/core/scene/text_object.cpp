@@ -161,7 +161,6 @@ namespace {
 /// What becomes of a body that is no ball.
 std::string_view howItFalls(const Scene& scene, std::size_t body) {
     constexpr std::string_view kAsBall = "falls as its bounding sphere in this version";
-    if (firstUnevaluated(scene)) return kAsBall;
     const Box box = bounds(makeTree(scene, [body](std::size_t i) { return i == body; }));
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (box.hi[axis] - box.lo[axis] == HUGE_VAL) return "has a mass but is infinite, and does not move";
@@ -170,12 +169,15 @@ std::string_view howItFalls(const Scene& scene, std::size_t body) {
 }  // namespace
 
 void Reader::warn() {
+    if (std::ranges::any_of(scene_.objects, [](const Object& o) { return o.type->isOperator() && asOperator(*o.type).kind != Operator::Kind::fold; }))
+        if (const Tree tree = makeTree(scene_); !tree.fault.empty() && tree.fault_object < object_places_.size()) {
+            const auto [line, column] = object_places_[tree.fault_object];
+            warnings_.push_back({line, column, tree.fault + "; it cannot be drawn so"});
+        }
     for (std::size_t i = 0; i < scene_.objects.size() && warnings_.size() < kMaxFaults; ++i) {
         const Object& o = scene_.objects[i];
         if (i >= object_places_.size()) return;
         const auto [line, column] = object_places_[i];
-        if (o.type->isOperator() && !asOperator(*o.type).evaluated())
-            warnings_.push_back({line, column, fmt::format("'{}' is read and kept, but this version cannot draw it", o.type->name)});
         if (o.isBody() && o.type->name != "sphere")
             warnings_.push_back({line, column, fmt::format("{} {}", shown(label(scene_, i)), howItFalls(scene_, i))});
     }

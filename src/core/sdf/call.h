@@ -30,4 +30,22 @@ template <class R, class... A> constexpr int argumentNumbers(R (Sdf<R>::*)(Vec3<
     return (0 + ... + Read<A>::size);
 }
 
+/// An operator on one distance, with or without the point; and a warp of the point.
+template <class R, class... A> R wrap(R (Sdf<R>::*f)(R, Vec3<R>, A...), R d, Vec3<R> p, const double* k) {
+    const std::tuple<A...> arguments{Read<A>::from(k)...};
+    return std::apply([&](A... a) { return (Sdf<R>{}.*f)(d, p, a...); }, arguments);
+}
+template <class R, class... A> R wrap(R (Sdf<R>::*f)(R, A...), R d, Vec3<R>, const double* k) {
+    const std::tuple<A...> arguments{Read<A>::from(k)...};
+    return std::apply([&](A... a) { return (Sdf<R>{}.*f)(d, a...); }, arguments);
+}
+template <class R, class... A> Vec3<R> warp(Vec3<R> (Sdf<R>::*f)(Vec3<R>, A...), Vec3<R> p, const double* k) {
+    const std::tuple<A...> arguments{Read<A>::from(k)...};
+    return std::apply([&](A... a) { return (Sdf<R>{}.*f)(p, a...); }, arguments);
+}
+template <class R, class... A> constexpr int wrapNumbers(R (Sdf<R>::*)(R, A...)) { return (0 + ... + Read<A>::size); }
+template <class R, class... A> constexpr int wrapNumbers(R (Sdf<R>::*)(R, Vec3<R>, A...)) { return (0 + ... + Read<A>::size); }
+template <class R, class... A> constexpr bool takesPoint(R (Sdf<R>::*)(R, A...)) { return false; }
+template <class R, class... A> constexpr bool takesPoint(R (Sdf<R>::*)(R, Vec3<R>, A...)) { return true; }
+
 }  // namespace mb::sdf

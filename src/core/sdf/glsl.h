@@ -21,6 +21,7 @@ template <class T> struct Vec2 {
 
 template <class T> struct Vec3 {
     T x, y, z;
+    Vec3() = default;
     explicit Vec3(T s) : x(s), y(s), z(s) {}
     Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
     friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -37,11 +38,15 @@ template <class T> struct Vec3 {
 };
 
 /// The GLSL library, compiled for one scalar. The files are the ones that the GPU compiles.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // a family of functions takes the same numbers, needed or not
 template <class real> struct Sdf {
     using vec2 = Vec2<real>;
     using vec3 = Vec3<real>;
+#include "../../../shaders/sdf/domains.glsl"
 #include "../../../shaders/sdf/operators.glsl"
 #include "../../../shaders/sdf/primitives.glsl"
 };
+#pragma GCC diagnostic pop
 
 }  // namespace mb::sdf

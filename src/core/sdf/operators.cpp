@@ -24,53 +24,155 @@ constexpr Parameter kRepeat[] = {
 constexpr Parameter kMirror[] = {{.name = "axis", .unit = "", .tip = "the plane's normal", .size = 1, .initial = {0}, .lo = 0,
                                   .hi = 2, .kind = Parameter::Kind::word, .words = kAxes}};
 constexpr Parameter kTwist[] = {number("turns", "turns/m", "along y", 0.1, -1e3, 1e3, -1, 1, false)};
-constexpr Parameter kBend[] = {number("angle", "degrees/m", "", 30, -1e5, 1e5, -180, 180, false)};
-constexpr Parameter kDisplace[] = {number("amplitude", "m", "", 0.05, 0, 1e6, 0, 0.5, false),
-                                   number("frequency", "1/m", "", 5, 0, 1e6, 0, 30, false)};
+constexpr Parameter kBend[] = {number("angle", "degrees/m", "along x; the ends rise where it is positive", 30, -1e5, 1e5, -180, 180, false)};
+constexpr Parameter kDisplace[] = {number("amplitude", "m", "of the waves, up and down", 0.02, 0, 1e6, 0, 0.5, false),
+                                   number("frequency", "1/m", "waves a metre, along each axis", 2, 0, 1e6, 0, 30, false)};
 
-struct About {
-    std::string_view name, glsl, tip;
-    bool commutative = false, first_only = false, intersects = false;
-};
+constexpr double kPi = 3.14159265358979323846;
 
-template <int N, class F> constexpr Operator fold(const About& about, const Parameter (&parameters)[N], F) {
-    Operator o{};
-    o.name = about.name, o.tip = about.tip, o.parameters = parameters, o.min_children = 1, o.max_children = 100'000;
-    o.glsl = about.glsl, o.commutative = about.commutative, o.first_only = about.first_only, o.intersects = about.intersects;
-    o.f32 = [](float a, float b, double k) { return (sdf::Sdf<float>{}.*F{}(sdf::Sdf<float>{}))(a, b, static_cast<float>(k)); };
-    o.f64 = [](double a, double b, double k) { return (sdf::Sdf<double>{}.*F{}(sdf::Sdf<double>{}))(a, b, k); };
-    o.dual = [](sdf::Dual a, sdf::Dual b, double k) { return (sdf::Sdf<sdf::Dual>{}.*F{}(sdf::Sdf<sdf::Dual>{}))(a, b, k); };
-    o.interval = [](sdf::Interval a, sdf::Interval b, double k) {
-        return (sdf::Sdf<sdf::Interval>{}.*F{}(sdf::Sdf<sdf::Interval>{}))(a, b, k);
-    };
-    return o;
-}
-/// An operator that files may hold and the editor keeps, but that no evaluator of this version knows.
-template <int N>
-constexpr Operator unevaluated(std::string_view name, std::string_view tip, const Parameter (&parameters)[N], int children) {
-    Operator o{};
-    o.name = name, o.tip = tip, o.parameters = parameters, o.min_children = children, o.max_children = children;
-    return o;
-}
 #define MB_FUNCTION(name) [](auto s) { return &decltype(s)::name; }
 
+/// Evaluators of one library function for every scalar; `f` names the member of Sdf<real>.
+template <class F> constexpr ForScalars<FoldFunction> folding(F) {
+    using sdf::Dual, sdf::Interval, sdf::Sdf;
+    return {[](float a, float b, double k) { return (Sdf<float>{}.*F{}(Sdf<float>{}))(a, b, static_cast<float>(k)); },
+            [](double a, double b, double k) { return (Sdf<double>{}.*F{}(Sdf<double>{}))(a, b, k); },
+            [](Dual a, Dual b, double k) { return (Sdf<Dual>{}.*F{}(Sdf<Dual>{}))(a, b, k); },
+            [](Interval a, Interval b, double k) { return (Sdf<Interval>{}.*F{}(Sdf<Interval>{}))(a, b, k); }};
+}
+template <class R, class F> R wrapWith(R d, sdf::Vec3<R> p, const double* k) { return sdf::wrap(F{}(sdf::Sdf<R>{}), d, p, k); }
+template <class F> constexpr ForScalars<WrapFunction> wrapping(F) {
+    return {wrapWith<float, F>, wrapWith<double, F>, wrapWith<sdf::Dual, F>, wrapWith<sdf::Interval, F>};
+}
+template <class R, class F> sdf::Vec3<R> warpWith(sdf::Vec3<R> p, const double* k) { return sdf::warp(F{}(sdf::Sdf<R>{}), p, k); }
+template <class F> constexpr ForScalars<WarpFunction> warping(F) {
+    return {warpWith<float, F>, warpWith<double, F>, warpWith<sdf::Dual, F>, warpWith<sdf::Interval, F>};
+}
+
+template <int N, class F, class S> constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share) {
+    if (N != 1 || parameters[0].size != 1) throw "a fold takes one number";
+    o.kind = Operator::Kind::fold, o.parameters = parameters;
+    o.fold_by = folding(f), o.share_by = folding(share);
+    return o;
+}
+/// A row whose parameters, with the derived ones, do not match the GLSL function does not compile.
+template <int N, class F> constexpr Operator wrap(Operator o, const Parameter (&parameters)[N], F f) {
+    int declared = 0;
+    for (const Parameter& p : parameters) declared += p.size;
+    for (const std::string_view name : o.derived) declared += name.empty() ? 0 : 1;
+    if (declared != sdf::wrapNumbers(f(sdf::Sdf<float>{})) || declared > kMaxLeafNumbers)
+        throw "the parameters do not match the GLSL function";
+    o.kind = Operator::Kind::wrap, o.parameters = parameters, o.min_children = o.max_children = 1;
+    o.takes_point = sdf::takesPoint(f(sdf::Sdf<float>{}));
+    o.wrap_by = wrapping(f);
+    return o;
+}
+template <int N, class F, class W> constexpr Operator warp(Operator o, const Parameter (&parameters)[N], F f, W w) {
+    if (!o.cook || !o.steepness || !o.extent) throw "a warp must say how it stretches space, and where its child comes to lie";
+    o.warp_by = warping(w);
+    return wrap(o, parameters, f);
+}
+template <int N> constexpr Operator copies(Operator o, const Parameter (&parameters)[N]) {
+    o.kind = Operator::Kind::copies, o.parameters = parameters, o.min_children = o.max_children = 1;
+    return o;
+}
+
+double largest(const Box& box, std::size_t axis) {
+    return box.lo[axis] > box.hi[axis] ? 0 : std::max(std::fabs(box.lo[axis]), std::fabs(box.hi[axis]));
+}
+/// A part in a million for the rounding of what is computed with it.
+constexpr double kSlack = 1 + 1e-6;
+
+/// Turning a plane by an angle that grows by t radians a metre along a direction moves a point at the radius r sideways by
+/// t·r. Across that direction (a twist) this is a shear, whose greatest stretch is (t·r + √((t·r)² + 4))/2; along it (a
+/// bend) the two add up to 1 + t·r.
+void cookTwist(LeafNumbers& k, const Box& child) {
+    k[1] = std::hypot(largest(child, 0), largest(child, 2));
+    const double shear = 2 * kPi * std::fabs(k[0]) * k[1];
+    k[2] = 2 / ((shear + std::sqrt(shear * shear + 4)) * kSlack);
+}
+void cookBend(LeafNumbers& k, const Box& child) {
+    k[0] /= 360;
+    k[1] = std::hypot(largest(child, 0), largest(child, 1));
+    k[2] = 1 / ((1 + 2 * kPi * std::fabs(k[0]) * k[1]) * kSlack);
+}
+void cookDisplace(LeafNumbers& k, const Box&) { k[2] = 1 / ((1 + 2 * kPi * k[0] * k[1]) * kSlack); }
+double eased(const LeafNumbers& k) { return 1 / k[2]; }
+
+double axisCount(const Numbers& k, std::size_t axis) { return k[axis] > 0 ? k[axis + 3] : 1; }
+/// On a grid whose middle is the operator's origin.
+Copy gridCopy(const Numbers& k, std::size_t i) {
+    Copy copy;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto n = static_cast<std::size_t>(axisCount(k, axis));
+        copy.offset[axis] = k[axis] * (static_cast<double>(i % n) - 0.5 * static_cast<double>(n - 1));
+        i /= n;
+    }
+    return copy;
+}
+Copy mirrorCopy(const Numbers& k, std::size_t i) {
+    Copy copy;
+    if (i == 1) copy.mirror[static_cast<std::size_t>(k[0])] = -1;
+    return copy;
+}
+
+constexpr Operator about(std::string_view name, std::string_view glsl, std::string_view tip, std::string_view share = {}) {
+    Operator o{};
+    o.name = name, o.glsl = glsl, o.tip = tip, o.share = share, o.min_children = 1, o.max_children = 100'000;
+    return o;
+}
+template <class Claim> constexpr Operator claims(Operator o, Claim claim) { return claim(o), o; }
+
 constexpr Operator kOperators[] = {
-    fold({"union", "opUnion", "All of the children together", true}, kBlend, MB_FUNCTION(opUnion)),
-    fold({"intersect", "opIntersect", "What all the children share", true, false, true}, kBlend, MB_FUNCTION(opIntersect)),
-    fold({"subtract", "opSubtract", "The first child less all the others", false, true}, kBlend, MB_FUNCTION(opSubtract)),
-    unevaluated("morph", "A shape between two shapes", kMorph, 2),
-    unevaluated("shell", "Hollows a shape", kShell, 1),
-    unevaluated("round", "Swells a shape", kRound, 1),
-    unevaluated("repeat", "Copies on a grid", kRepeat, 1),
-    unevaluated("mirror", "A shape and its mirror image", kMirror, 1),
-    unevaluated("twist", "Twists around y", kTwist, 1),
-    unevaluated("bend", "Bends", kBend, 1),
-    unevaluated("displace", "Waves on the surface", kDisplace, 1),
+    fold(claims(about("union", "opUnion", "All of the children together", "shareUnion"), [](Operator& o) { o.commutative = o.blends = true; }),
+         kBlend, MB_FUNCTION(opUnion), MB_FUNCTION(shareUnion)),
+    fold(claims(about("intersect", "opIntersect", "What all the children share", "shareIntersect"),
+                [](Operator& o) { o.commutative = o.blends = o.intersects = true; }),
+         kBlend, MB_FUNCTION(opIntersect), MB_FUNCTION(shareIntersect)),
+    fold(claims(about("subtract", "opSubtract", "The first child less all the others", "shareSubtract"),
+                [](Operator& o) { o.blends = o.first_only = true; }),
+         kBlend, MB_FUNCTION(opSubtract), MB_FUNCTION(shareSubtract)),
+    fold(claims(about("morph", "opMorph", "A shape between two shapes", "shareMorph"), [](Operator& o) { o.min_children = o.max_children = 2; }),
+         kMorph, MB_FUNCTION(opMorph), MB_FUNCTION(shareMorph)),
+    wrap(about("shell", "opShell", "Hollows a shape: its wall lies inside its surface"), kShell, MB_FUNCTION(opShell)),
+    wrap(claims(about("round", "opRound", "Swells a shape"), [](Operator& o) { o.grows = [](const LeafNumbers& k) { return k[0]; }; }), kRound,
+         MB_FUNCTION(opRound)),
+    copies(claims(about("repeat", "", "Copies on a grid"),
+                  [](Operator& o) {
+                      o.count = [](const Numbers& k) { return axisCount(k, 0) * axisCount(k, 1) * axisCount(k, 2); };
+                      o.copy = gridCopy;
+                  }),
+           kRepeat),
+    copies(claims(about("mirror", "", "A shape and its mirror image"),
+                  [](Operator& o) { o.count = [](const Numbers&) { return 2.0; }, o.copy = mirrorCopy; }),
+           kMirror),
+    warp(claims(about("twist", "opTwist", "Twists around y"),
+                [](Operator& o) {
+                    o.warp = "warpTwist", o.derived = {"reach", "ease"}, o.cook = cookTwist, o.steepness = eased;
+                    o.extent = [](const LeafNumbers& k, const Box& child) { return Box{{-k[1], child.lo[1], -k[1]}, {k[1], child.hi[1], k[1]}}; };
+                }),
+         kTwist, MB_FUNCTION(opTwist), MB_FUNCTION(warpTwist)),
+    warp(claims(about("bend", "opBend", "Bends a bar along x up, in the plane of x and y"),
+                [](Operator& o) {
+                    o.warp = "warpBend", o.derived = {"reach", "ease"}, o.cook = cookBend, o.steepness = eased;
+                    o.extent = [](const LeafNumbers& k, const Box& child) { return Box{{-k[1], -k[1], child.lo[2]}, {k[1], k[1], child.hi[2]}}; };
+                }),
+         kBend, MB_FUNCTION(opBend), MB_FUNCTION(warpBend)),
+    wrap(claims(about("displace", "opDisplace", "Waves on the surface"),
+                [](Operator& o) { o.derived = {"ease", ""}, o.cook = cookDisplace, o.grows = [](const LeafNumbers& k) { return k[0]; }; }),
+         kDisplace, MB_FUNCTION(opDisplace)),
 };
 
 }  // namespace
 
 std::span<const Operator> operators() { return kOperators; }
+
+int Operator::wrapNumbers() const {
+    int n = 0;
+    for (const Parameter& p : parameters) n += p.size;
+    for (const std::string_view extra : derived) n += extra.empty() ? 0 : 1;
+    return n;
+}
 
 const ShapeType* findShapeType(std::string_view name) {
     for (const Primitive& p : primitives()) if (p.name == name) return &p;

@@ -13,6 +13,7 @@ template <Plain T> T abs(T x) { return std::fabs(x); }
 template <Plain T> T square(T x) { return x * x; }
 template <Plain A, Plain B> std::common_type_t<A, B> min(A a, B b) { return b < a ? b : a; }
 template <Plain A, Plain B> std::common_type_t<A, B> max(A a, B b) { return a < b ? b : a; }
+template <Plain T> T nearestWhole(T x) { return std::floor(x + T(0.5)); }
 /// The dialect's only branch: a where s is negative, b elsewhere.
 template <Plain S, Plain A, Plain B> std::common_type_t<A, B> pick(S s, A a, B b) { return s < 0 ? a : b; }
 
@@ -40,6 +41,7 @@ struct Dual {
     }
     friend Dual square(Dual a) { return a * a; }
     friend Dual abs(Dual a) { return a.v < 0 ? -a : a; }
+    friend Dual nearestWhole(Dual a) { return std::floor(a.v + 0.5); }
     friend Dual min(Dual a, Dual b) { return b.v < a.v ? b : a; }
     friend Dual max(Dual a, Dual b) { return a.v < b.v ? b : a; }
     friend Dual pick(Dual s, Dual a, Dual b) { return s.v < 0 ? a : b; }
@@ -74,6 +76,7 @@ struct Interval {
         if (a.hi <= 0) return -a;
         return {0, std::max(-a.lo, a.hi)};
     }
+    friend Interval nearestWhole(Interval a) { return {std::floor(a.lo + 0.5), std::floor(a.hi + 0.5)}; }
     /// Tighter than a * a, which forgets that both factors are the same number.
     friend Interval square(Interval a) {
         const Interval m = abs(a), r = outward(m.lo * m.lo, m.hi * m.hi);

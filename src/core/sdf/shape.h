@@ -21,6 +21,8 @@ struct Parameter {
     Kind kind = Kind::real;
     std::span<const std::string_view> words{};  // Kind::word: the value is an index into these
     bool isLength() const { return unit == "m"; }
+    /// A number of this key, of an object scaled by that much: lengths grow, and what counts per metre shrinks.
+    double scaled(double x, double scale) const { return isLength() ? x * scale : unit.ends_with("/m") ? x / scale : x; }
 };
 
 inline constexpr int kMaxParameters = 6;       // numbers an object's own keys hold, of any type
@@ -64,26 +66,61 @@ struct Primitive : ShapeType {
     int leafNumbers() const;
 };
 
-/// An operator folds its children's distances from the left, two at a time: f(f(a, b), c) …
-struct Operator : ShapeType {
-    std::string_view glsl;                     // the function: opUnion; empty: this version cannot evaluate it yet
-    bool commutative = false;
-    bool first_only = false;                   // the result lies within the first child (plus the blend)
-    bool intersects = false;                   // the result lies within every child (plus the blend)
-    float (*f32)(float, float, double) = nullptr;
-    double (*f64)(double, double, double) = nullptr;
-    sdf::Dual (*dual)(sdf::Dual, sdf::Dual, double) = nullptr;
-    sdf::Interval (*interval)(sdf::Interval, sdf::Interval, double) = nullptr;
-
-    bool evaluated() const { return !glsl.empty(); }
-    /// Whether the surface is the second child's where their distances are a and b; the first one wins a tie.
-    bool takesSecond(double a, double b) const { return intersects ? b > a : first_only ? -b > a : b < a; }
-    template <class R> R fold(R a, R b, double blend) const {
-        if constexpr (std::is_same_v<R, float>) return f32(a, b, blend);
-        else if constexpr (std::is_same_v<R, double>) return f64(a, b, blend);
-        else if constexpr (std::is_same_v<R, sdf::Dual>) return dual(a, b, blend);
-        else return interval(a, b, blend);
+/// The four evaluators of one function of the GLSL library.
+template <template <class> class Signature> struct ForScalars {
+    Signature<float> f32 = nullptr;
+    Signature<double> f64 = nullptr;
+    Signature<sdf::Dual> dual = nullptr;
+    Signature<sdf::Interval> interval = nullptr;
+    template <class R> Signature<R> of() const {
+        if constexpr (std::is_same_v<R, float>) return f32;
+        else if constexpr (std::is_same_v<R, double>) return f64;
+        else if constexpr (std::is_same_v<R, sdf::Dual>) return dual;
+        else return interval;
     }
+    explicit operator bool() const { return f64 != nullptr; }
+};
+template <class R> using FoldFunction = R (*)(R a, R b, double k);
+template <class R> using WrapFunction = R (*)(R d, sdf::Vec3<R> p, const double* k);
+template <class R> using WarpFunction = sdf::Vec3<R> (*)(sdf::Vec3<R> p, const double* k);
+
+/// A copy of a child: point = turn·p + offset, `turn` a rotation or a reflection.
+struct Copy {
+    std::array<double, 3> mirror{1, 1, 1};     // the diagonal of the turn: ±1
+    std::array<double, 3> offset{};
+};
+
+/// An operator is of one of three kinds. A fold joins its children's distances from the left, two at a time: f(f(a, b), c) …
+/// A wrap changes one child's distance, and where it warps space, the point that the child is asked at. Copies stand for
+/// their plain union.
+struct Operator : ShapeType {
+    enum class Kind { fold, wrap, copies } kind = Kind::fold;
+    std::string_view glsl;                     // the function on distances: opUnion, opTwist; none of copies
+    std::string_view share;                    // of a fold: how much of the second child shows, shareUnion
+    std::string_view warp;                     // of a wrap that warps space: warpTwist
+    std::array<std::string_view, 2> derived{}; // names of the numbers a wrap's cook adds behind the file's
+    bool commutative = false;
+    bool first_only = false;                   // the result lies within the first child (plus the blend); the second is taken away
+    bool intersects = false;                   // the result lies within every child (plus the blend)
+    bool blends = false;                       // its first parameter is a blend: at 0 it is the plain operator
+    bool takes_point = false;                  // the wrap's function asks where it is
+    ForScalars<FoldFunction> fold_by, share_by;
+    ForScalars<WrapFunction> wrap_by;
+    ForScalars<WarpFunction> warp_by;
+    void (*cook)(LeafNumbers&, const Box& child) = nullptr;  // of a wrap: the GLSL's numbers from the scaled ones of the file
+    double (*grows)(const LeafNumbers&) = nullptr;           // of a wrap: how far out the surface may move, m
+    double (*steepness)(const LeafNumbers&) = nullptr;       // of a warp: by how much it stretches space at most; the value is divided by it
+    Box (*extent)(const LeafNumbers&, const Box& child) = nullptr;     // of a warp: the box of the warped child
+    double (*count)(const Numbers&) = nullptr;               // of copies: how many
+    Copy (*copy)(const Numbers&, std::size_t) = nullptr;     // the one of that number
+
+    template <class R> R fold(R a, R b, double k) const { return fold_by.of<R>()(a, b, k); }
+    /// From 0, the first child alone, to 1, the second alone.
+    template <class R> R shareOfSecond(R a, R b, double k) const { return share_by.of<R>()(a, b, k); }
+    template <class R> R wrap(R d, sdf::Vec3<R> p, const LeafNumbers& k) const { return wrap_by.of<R>()(d, p, k.data()); }
+    template <class R> sdf::Vec3<R> warped(sdf::Vec3<R> p, const LeafNumbers& k) const { return warp_by.of<R>()(p, k.data()); }
+    /// How many numbers the wrap's GLSL functions take.
+    int wrapNumbers() const;
 };
 
 std::span<const Primitive> primitives();

@@ -1,184 +1,97 @@
 #include "core/sdf/tree.h"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cassert>
 
 namespace mb {
 namespace {
 
-/// A frame of the scene's tree: world = position + scale·rotation·local.
-struct Frame {
-    glm::dmat3 rotation{1};
-    glm::dvec3 position{0};
-    double scale = 1;
-};
+constexpr std::size_t kStack = 40, kSpaces = 34;  // deeper than Limits::levels lets a program go
 
-Frame below(const Frame& parent, const Object& o) {
-    return {parent.rotation * rotationFromDegrees(o.rot), parent.position + parent.scale * (parent.rotation * o.pos),
-            parent.scale * o.scale};
-}
-
-struct Builder {
-    const Scene& scene;
-    Tree tree;
-    int on_stack = 0;
-
-    void push(Instruction::Kind kind, std::size_t index) {
-        tree.program.push_back({kind, static_cast<std::uint32_t>(index)});
-        on_stack += kind == Instruction::Kind::leaf ? 1 : -1;
-        tree.depth = std::max(tree.depth, on_stack);
-    }
-
-    /// Appends the program of the object and its children; says whether it left a value.
-    bool add(std::size_t i, const Frame& parent, int object) {  // at most Limits::levels deep
-        const Object& o = scene.objects[i];
-        if (o.hidden) return false;
-        const Frame frame = below(parent, o);
-        if (!o.type->isOperator()) return addLeaf(i, frame, object), true;
-
-        const Operator& op = asOperator(*o.type);
-        assert(op.evaluated());
-        const std::size_t branch = tree.branches.size();
-        tree.branches.push_back({&op, o.numbers[0] * frame.scale, i});
-        bool any = false;
-        for (std::size_t child = i + 1, end = subtreeEnd(scene, i); child < end; child = subtreeEnd(scene, child)) {
-            const bool left_value = add(child, frame, object);
-            if (left_value && any) push(Instruction::Kind::fold, branch);
-            // A hidden first child is an empty set: nothing can be subtracted from it, nothing shared with it.
-            if (!left_value && !any && child == i + 1 && op.first_only) return false;
-            if (!left_value && op.intersects) return drop(any), false;
-            any = any || left_value;
-        }
-        return any;
-    }
-
-    void addLeaf(std::size_t i, const Frame& frame, int object) {
-        const Object& o = scene.objects[i];
-        const Primitive& primitive = asPrimitive(*o.type);
-        Leaf leaf{&primitive, frame.rotation, frame.position, {}, object, effectiveMaterial(scene, i), i};
-        std::size_t at = 0;
-        for (const Parameter& p : primitive.parameters)
-            for (int k = 0; k < p.size; ++k, ++at) leaf.numbers[at] = o.numbers[at] * (p.isLength() ? frame.scale : 1);
-        if (primitive.cook) primitive.cook(leaf.numbers);
-        tree.leaves.push_back(leaf);
-        push(Instruction::Kind::leaf, tree.leaves.size() - 1);
-    }
-
-    /// Takes back what the last value on the stack was made by.
-    void drop(bool any) {
-        if (!any) return;
-        int values = 0;
-        while (values != 1) {
-            values += tree.program.back().kind == Instruction::Kind::leaf ? 1 : -1;
-            tree.program.pop_back();
-        }
-        --on_stack;
-    }
-};
-
-template <class R> sdf::Vec3<R> toLeaf(const Leaf& leaf, const sdf::Vec3<R>& p) {
-    const auto number = [](double x) { return static_cast<R>(x); };
-    const sdf::Vec3<R> q{p.x - number(leaf.position.x), p.y - number(leaf.position.y), p.z - number(leaf.position.z)};
-    const glm::dmat3& m = leaf.rotation;  // its columns are the leaf's axes
-    const auto along = [&](int axis) { return number(m[axis].x) * q.x + number(m[axis].y) * q.y + number(m[axis].z) * q.z; };
-    return {along(0), along(1), along(2)};
-}
-
-/// Runs the program over values made by `leaf` and joined by `fold` and `join`.
-template <class Value, class LeafFn, class FoldFn, class JoinFn>
-Value run(const Tree& tree, Value empty, LeafFn leaf, FoldFn fold, JoinFn join) {
-    if (tree.program.empty()) return empty;
-    constexpr int kInPlace = 40;  // deeper than Limits::levels lets a program go
-    assert(tree.depth <= kInPlace);
-    std::array<Value, kInPlace> stack;
-    stack.fill(empty);
+/// Runs a tape over values: leaf(leaf), fold(branch, a, b), join(a, b), enter(branch), wrap(branch, a).
+template <class Value, class Visitor> Value run(const Tree& tree, std::span<const Instruction> tape, Value empty, Visitor visit) {
+    if (tape.empty()) return empty;
+    assert(tree.depth <= static_cast<int>(kStack));
+    std::array<Value, kStack> stack;
     std::size_t top = 0;
-    for (const Instruction& step : tree.program) {
-        if (step.kind == Instruction::Kind::leaf) {
-            stack[top++] = leaf(step.index);
-            continue;
+    for (const Instruction& step : tape) {
+        switch (step.kind) {
+        case Instruction::Kind::leaf: stack[top++] = visit.leaf(step.index); break;
+        case Instruction::Kind::fold: --top, stack[top - 1] = visit.fold(tree.branches[step.index], stack[top - 1], stack[top]); break;
+        case Instruction::Kind::join: --top, stack[top - 1] = visit.join(stack[top - 1], stack[top]); break;
+        case Instruction::Kind::enter: visit.enter(tree.branches[step.index]); break;
+        case Instruction::Kind::wrap: stack[top - 1] = visit.wrap(tree.branches[step.index], stack[top - 1]); break;
         }
-        --top;
-        stack[top - 1] = step.kind == Instruction::Kind::join ? join(stack[top - 1], stack[top])
-                                                              : fold(tree.branches[step.index], stack[top - 1], stack[top]);
     }
     return stack[0];
 }
 
-}  // namespace
+/// The point in each of the spaces that are open.
+template <class R> struct Spaces {
+    const Tree& tree;
+    std::array<sdf::Vec3<R>, kSpaces> points;
 
-Tree makeTree(const Scene& scene, const std::function<bool(std::size_t)>& wanted) {
-    Builder builder{scene, {}, 0};
-    int object = 0;
-    bool any = false;
-    for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i), ++object) {
-        if ((wanted && !wanted(i)) || !builder.add(i, {}, object)) continue;
-        if (any) builder.push(Instruction::Kind::join, 0);
-        any = true;
+    Spaces(const Tree& t, const sdf::Vec3<R>& p, int warps) : tree(t) { at(warps) = p; }
+    sdf::Vec3<R>& at(int warps) { return points[static_cast<std::size_t>(warps)]; }
+    sdf::Vec3<R> in(const Branch& b) { return toFrame(b.rotation, b.position, at(b.warps)); }
+    void enter(const Branch& b) { at(b.warps + 1) = b.op->warped<R>(in(b), b.numbers); }
+    R leafDistance(std::size_t i) {
+        const Leaf& leaf = tree.leaves[i];
+        return leaf.primitive->distance<R>(toFrame(leaf.rotation, leaf.position, at(leaf.warps)), leaf.numbers);
     }
-    return std::move(builder.tree);
-}
+    R wrapped(const Branch& b, R d) { return b.op->wrap<R>(d, in(b), b.numbers); }
+};
 
-std::optional<std::size_t> firstUnevaluated(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const Object& o = scene.objects[i];
-        if (o.type->isOperator() && !asOperator(*o.type).evaluated()) return i;
+template <class R> struct DistanceVisitor {
+    Spaces<R> spaces;
+    R leaf(std::size_t i) { return spaces.leafDistance(i); }
+    R fold(const Branch& b, R x, R y) { return b.op->fold<R>(x, y, b.blend); }
+    R join(R x, R y) {
+        using sdf::min;
+        return min(x, y);
     }
-    return std::nullopt;
-}
+    void enter(const Branch& b) { spaces.enter(b); }
+    R wrap(const Branch& b, R x) { return spaces.wrapped(b, x); }
+};
 
-std::string whyUnevaluated(const Scene& scene) {
-    const auto object = firstUnevaluated(scene);
-    return object ? fmt::format("object '{}' is of type '{}', which this version can neither draw nor touch", label(scene, *object),
-                                scene.objects[*object].type->name)
-                  : std::string();
-}
-
-template <class R> R distance(const Tree& tree, sdf::Vec3<R> p) {
-    return run<R>(
-        tree, R(static_cast<R>(kEmptyDistance)),
-        [&](std::size_t i) { return tree.leaves[i].primitive->distance<R>(toLeaf<R>(tree.leaves[i], p), tree.leaves[i].numbers); },
-        [](const Branch& b, R x, R y) { return b.op->fold<R>(x, y, b.blend); },
-        [](R x, R y) {
-            using sdf::min;
-            return min(x, y);
-        });
-}
-template float distance(const Tree&, sdf::Vec3<float>);
-template double distance(const Tree&, sdf::Vec3<double>);
-template sdf::Dual distance(const Tree&, sdf::Vec3<sdf::Dual>);
-template sdf::Interval distance(const Tree&, sdf::Vec3<sdf::Interval>);
-
-template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p) {
+template <class R> struct NearestVisitor {
     using Found = Nearest<R>;
-    return run<Found>(
-        tree, Found{static_cast<R>(kEmptyDistance), -1},
-        [&](std::size_t i) {
-            const Leaf& leaf = tree.leaves[i];
-            return Found{leaf.primitive->distance<R>(toLeaf<R>(leaf, p), leaf.numbers), static_cast<int>(i)};
-        },
-        [](const Branch& b, Found x, Found y) {
-            const bool second = b.op->takesSecond(static_cast<double>(x.distance), static_cast<double>(y.distance));
-            return Found{b.op->fold<R>(x.distance, y.distance, b.blend), second ? y.leaf : x.leaf};
-        },
-        [](Found x, Found y) { return y.distance < x.distance ? y : x; });
-}
-template Nearest<float> nearest(const Tree&, sdf::Vec3<float>);
-template Nearest<double> nearest(const Tree&, sdf::Vec3<double>);
+    Spaces<R> spaces;
+    Found leaf(std::size_t i) { return {spaces.leafDistance(i), static_cast<int>(i)}; }
+    Found fold(const Branch& b, Found x, Found y) {
+        const bool second = b.op->shareOfSecond<R>(x.distance, y.distance, b.blend) > R(0.5);
+        return {b.op->fold<R>(x.distance, y.distance, b.blend), second ? y.leaf : x.leaf};
+    }
+    Found join(Found x, Found y) { return y.distance < x.distance ? y : x; }
+    void enter(const Branch& b) { spaces.enter(b); }
+    Found wrap(const Branch& b, Found x) { return {spaces.wrapped(b, x.distance), x.leaf}; }
+};
 
-Slope slope(const Tree& tree, glm::dvec3 p) {
-    const sdf::Dual d = distance<sdf::Dual>(tree, {{p.x, 1, 0, 0}, {p.y, 0, 1, 0}, {p.z, 0, 0, 1}});
-    return {d.v, {d.dx, d.dy, d.dz}};
-}
-
-Box bounds(const Leaf& leaf) {
-    const Box local = leaf.primitive->extent(leaf.numbers);
+/// Where the value is no more than e, a point lies within e/rises of the box: a blend's k/4 carries a bound's surface
+/// further than a distance's.
+struct Reach {
     Box box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    double rises = 1;
+};
+Box either(Box a, const Box& b) {
+    for (std::size_t i = 0; i < 3; ++i) a.lo[i] = std::min(a.lo[i], b.lo[i]), a.hi[i] = std::max(a.hi[i], b.hi[i]);
+    return a;
+}
+Box both(Box a, const Box& b) {
+    for (std::size_t i = 0; i < 3; ++i) a.lo[i] = std::max(a.lo[i], b.lo[i]), a.hi[i] = std::min(a.hi[i], b.hi[i]);
+    return a;
+}
+Box grown(Box a, double by) {
+    for (std::size_t i = 0; i < 3; ++i) a.lo[i] -= by, a.hi[i] += by;
+    return a;
+}
+/// The box around a box of a frame, seen from the space the frame lies in.
+Box placed(const Box& local, const glm::dmat3& rotation, glm::dvec3 position) {
+    Box box;
     for (int axis = 0; axis < 3; ++axis) {
-        double lo = leaf.position[axis], hi = lo;
+        double lo = position[axis], hi = lo;
         for (int k = 0; k < 3; ++k) {
-            const double m = leaf.rotation[k][axis], a = local.lo[static_cast<std::size_t>(k)], b = local.hi[static_cast<std::size_t>(k)];
+            const double m = rotation[k][axis], a = local.lo[static_cast<std::size_t>(k)], b = local.hi[static_cast<std::size_t>(k)];
             if (m == 0) continue;  // 0·∞ is NaN
             lo += std::min(m * a, m * b), hi += std::max(m * a, m * b);
         }
@@ -186,39 +99,77 @@ Box bounds(const Leaf& leaf) {
     }
     return box;
 }
+bool isEmpty(const Box& b) { return b.lo[0] > b.hi[0] || b.lo[1] > b.hi[1] || b.lo[2] > b.hi[2]; }
 
-Box bounds(const Tree& tree) {
-    const Box empty{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    const auto either = [](Box a, const Box& b) {
-        for (std::size_t i = 0; i < 3; ++i) a.lo[i] = std::min(a.lo[i], b.lo[i]), a.hi[i] = std::max(a.hi[i], b.hi[i]);
-        return a;
-    };
-    const auto both = [](Box a, const Box& b) {
-        for (std::size_t i = 0; i < 3; ++i) a.lo[i] = std::max(a.lo[i], b.lo[i]), a.hi[i] = std::min(a.hi[i], b.hi[i]);
-        return a;
-    };
-    // Where the value is no more than e, a point lies within e/rises of the box: a blend's k/4 carries a bound's surface
-    // further than a distance's.
-    struct Reach {
-        Box box;
-        double rises = 1;
-    };
-    return run<Reach>(
-               tree, Reach{empty},
-               [&](std::size_t i) {
-                   const Leaf& leaf = tree.leaves[i];
-                   return Reach{bounds(leaf), leaf.primitive->rises ? leaf.primitive->rises(leaf.numbers) : 1};
-               },
-               [&](const Branch& b, const Reach& x, const Reach& y) {
-                   if (b.op->first_only) return x;  // a blend only takes away where it subtracts or intersects
-                   const double rises = std::min(x.rises, y.rises);
-                   if (b.op->intersects) return Reach{both(x.box, y.box), rises};
-                   Reach r{either(x.box, y.box), rises};
-                   for (std::size_t i = 0; i < 3; ++i) r.box.lo[i] -= b.blend / 4 / rises, r.box.hi[i] += b.blend / 4 / rises;
-                   return r;
-               },
-               [&](const Reach& x, const Reach& y) { return Reach{either(x.box, y.box), std::min(x.rises, y.rises)}; })
-        .box;
+struct BoundsVisitor {
+    const Tree& tree;
+    Reach leaf(std::size_t i) {
+        const Leaf& l = tree.leaves[i];
+        return {bounds(l), l.primitive->rises ? l.primitive->rises(l.numbers) : 1};
+    }
+    Reach fold(const Branch& b, const Reach& x, const Reach& y) {
+        if (b.op->first_only) return x;  // a blend only takes away where it subtracts or intersects
+        const double rises = std::min(x.rises, y.rises);
+        if (b.op->intersects) return {both(x.box, y.box), rises};
+        return {grown(either(x.box, y.box), b.op->blends ? b.blend / 4 / rises : 0), rises};
+    }
+    Reach join(const Reach& x, const Reach& y) { return {either(x.box, y.box), std::min(x.rises, y.rises)}; }
+    void enter(const Branch&) {}
+    Reach wrap(const Branch& b, const Reach& x) {
+        if (isEmpty(x.box)) return x;
+        const double steep = b.op->steepness ? b.op->steepness(b.numbers) : 1;
+        const Box box = b.op->grows ? grown(x.box, b.op->grows(b.numbers) / x.rises) : x.box;
+        if (!b.op->extent) return {box, x.rises};
+        return {placed(b.op->extent(b.numbers, box), b.rotation, b.position), x.rises / steep};
+    }
+};
+
+}  // namespace
+
+template <class R> sdf::Vec3<R> toFrame(const glm::dmat3& m, glm::dvec3 position, const sdf::Vec3<R>& p) {
+    const auto number = [](double x) { return static_cast<R>(x); };
+    const sdf::Vec3<R> q{p.x - number(position.x), p.y - number(position.y), p.z - number(position.z)};
+    // The matrix's columns are the frame's axes.
+    const auto along = [&](int axis) { return number(m[axis].x) * q.x + number(m[axis].y) * q.y + number(m[axis].z) * q.z; };
+    return {along(0), along(1), along(2)};
+}
+
+template <class R> R distance(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p, int warps) {
+    return run<R>(tree, tape, R(static_cast<R>(kEmptyDistance)), DistanceVisitor<R>{Spaces<R>(tree, p, warps)});
+}
+template <class R> R distance(const Tree& tree, sdf::Vec3<R> p) { return distance<R>(tree, tree.program, p); }
+template <class R> Nearest<R> nearest(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p) {
+    return run<Nearest<R>>(tree, tape, {static_cast<R>(kEmptyDistance), -1}, NearestVisitor<R>{Spaces<R>(tree, p, 0)});
+}
+template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p) { return nearest<R>(tree, tree.program, p); }
+
+#define MB_FOR(R)                                                                          \
+    template sdf::Vec3<R> toFrame(const glm::dmat3&, glm::dvec3, const sdf::Vec3<R>&);     \
+    template R distance(const Tree&, sdf::Vec3<R>);                                        \
+    template R distance(const Tree&, std::span<const Instruction>, sdf::Vec3<R>, int);
+MB_FOR(float)
+MB_FOR(double)
+MB_FOR(sdf::Dual)
+MB_FOR(sdf::Interval)
+#undef MB_FOR
+template Nearest<float> nearest(const Tree&, sdf::Vec3<float>);
+template Nearest<double> nearest(const Tree&, sdf::Vec3<double>);
+template Nearest<float> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<float>);
+template Nearest<double> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<double>);
+
+Slope slope(const Tree& tree, glm::dvec3 p) {
+    const sdf::Dual d = distance<sdf::Dual>(tree, {{p.x, 1, 0, 0}, {p.y, 0, 1, 0}, {p.z, 0, 0, 1}});
+    return {d.v, {d.dx, d.dy, d.dz}};
+}
+
+Box bounds(const Leaf& leaf) { return placed(leaf.primitive->extent(leaf.numbers), leaf.rotation, leaf.position); }
+Box bounds(const Tree& tree, std::span<const Instruction> tape) { return run<Reach>(tree, tape, {}, BoundsVisitor{tree}).box; }
+Box bounds(const Tree& tree) { return bounds(tree, tree.program); }
+
+bool isFinite(const Box& box) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!std::isfinite(box.lo[i]) || !std::isfinite(box.hi[i])) return false;
+    return true;
 }
 
 }  // namespace mb

@@ -1,0 +1,61 @@
+// What the scene's own text finds at a point, and what that is made of.
+
+// A material at a point of a surface: its pattern looked up.
+struct Look {
+    vec4 color;  // w: Ka
+    vec4 phong;  // Kd, Ks, Kr, C
+};
+
+struct Nearest {
+    float distance;
+    int leaf;    // whose surface it is; -1: none
+    vec3 at;     // the point in that leaf's frame
+#ifdef EFFECT_BLEND
+    Look look;   // of all the leaves that show there, each by its share
+#endif
+};
+
+// A field of one metre of a checkerboard in the leaf's frame. The point is moved a little, so that a surface that lies on
+// a border of two fields (a floor at height 0) falls into one of them everywhere.
+const float FIELD_INSET = 1e-3;
+bool isDarkField(vec3 p) {
+    vec3 field = floor(p - FIELD_INSET);
+    return mod(field.x + field.y + field.z, 2.0) != 0.0;
+}
+
+Look lookOf(int leaf, vec3 at) {
+    Material material = materials[int(leafRecord(max(leaf, 0)).position.w)];
+    vec3 color = material.color.rgb;
+#ifdef EFFECT_CHECKER
+    if (material.phong.w != 0.0 && isDarkField(at)) color = material.color2.rgb;
+#endif
+    return Look(vec4(color, material.color.w), vec4(material.color2.w, material.phong.xyz));
+}
+#ifdef EFFECT_BLEND
+Look lookOf(Nearest found) { return found.look; }
+#else
+Look lookOf(Nearest found) { return lookOf(found.leaf, found.at); }
+#endif
+
+Nearest foundLeaf(float distance, int leaf, vec3 at) {
+#ifdef EFFECT_BLEND
+    return Nearest(distance, leaf, at, lookOf(leaf, at));
+#else
+    return Nearest(distance, leaf, at);
+#endif
+}
+// The nearer of two, the first of equals.
+Nearest nearer(Nearest a, Nearest b) {
+    if (b.distance < a.distance) return b;
+    return a;
+}
+// Two under an operator: its value, and how much of the second shows.
+Nearest foundBoth(float distance, float share, Nearest a, Nearest b) {
+    Nearest both = a;
+    if (share > 0.5) both = b;
+    both.distance = distance;
+#ifdef EFFECT_BLEND
+    both.look = Look(mix(a.look.color, b.look.color, share), mix(a.look.phong, b.look.phong, share));
+#endif
+    return both;
+}
