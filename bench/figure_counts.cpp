@@ -21,7 +21,8 @@ std::pair<double, double> reach(const Model& model, const Box& box, const Ray& r
     to = INFINITY;
     for (std::size_t i = 0; i < 3; ++i) {
         const int axis = static_cast<int>(i);
-        const double a = (box.lo[i] - ray.origin[axis]) / ray.direction[axis], b = (box.hi[i] - ray.origin[axis]) / ray.direction[axis];
+        const double a = (box.lo[i] - ray.origin[axis]) / ray.direction[axis];
+        const double b = (box.hi[i] - ray.origin[axis]) / ray.direction[axis];
         from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
     }
     return {from, to};
@@ -78,8 +79,10 @@ void count(Bench& bench, std::string_view family, int n) {
         line["marchbox"] = {{"skipped", why.substr(0, why.find('\n'))}};
     }
     const Marches m = marches(model, bench.options.size, why.empty() ? &measured.channels : nullptr);
-    line["march"] = {{"stride", m.stride}, {"least", rounded(m.least)}, {"plain", rounded(m.plain)}, {"plain_over_least", rounded(m.plain / m.least)}};
-    if (why.empty()) line["march"]["marchbox"] = rounded(m.own), line["march"]["marchbox_over_least"] = rounded(m.own / m.least);
+    Json& march = line["march"];
+    march = {{"stride", m.stride}, {"least", rounded(m.least)}, {"plain", rounded(m.plain)}};
+    march["plain_over_least"] = rounded(m.plain / m.least);
+    if (why.empty()) march["marchbox"] = rounded(m.own), march["marchbox_over_least"] = rounded(m.own / m.least);
     bench.print(line);
 }
 

@@ -49,7 +49,8 @@ void growthFigure(Bench& bench) {
     for (std::size_t at = 0; Size& size : sizes) {
         const std::size_t own = at++;
         Measured measured;
-        if (const std::string why = bench.renderer.measure(size.scene, size.scene.cameras[0], bench.options.size, measured); !why.empty()) {
+        const Camera& camera = size.scene.cameras[0];
+        if (const std::string why = bench.renderer.measure(size.scene, camera, bench.options.size, measured); !why.empty()) {
             skip(bench, size.line, why);
             continue;
         }

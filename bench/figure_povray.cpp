@@ -19,7 +19,8 @@ double differing(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& 
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         bool far = false;
-        for (int k = 0; k < 3; ++k) far = far || !(std::fabs(std::clamp(a[i][k], 0.0f, 1.0f) - std::clamp(b[i][k], 0.0f, 1.0f)) <= kSteps);
+        for (int k = 0; k < 3; ++k)
+            far = far || !(std::fabs(std::clamp(a[i][k], 0.0f, 1.0f) - std::clamp(b[i][k], 0.0f, 1.0f)) <= kSteps);
         count += far;
     }
     return static_cast<double>(count) / static_cast<double>(a.size());
@@ -75,7 +76,8 @@ void compare(Bench& bench, std::string_view family, int n) {
 }  // namespace
 
 void povrayFigure(Bench& bench) {
-    if (!Povray::available()) return bench.print({{"figure", "povray"}, {"skipped", "there is no povray on PATH (Debian: apt-get install povray)"}});
+    if (!Povray::available())
+        return bench.print({{"figure", "povray"}, {"skipped", "there is no povray on PATH (Debian: apt-get install povray)"}});
     for (const int n : sizesOf(bench, {10, 100, 1000, 10'000})) compare(bench, "union", n);
     if (bench.options.quick) return;
     for (const std::string_view family : {"carved", "tree"})

@@ -23,16 +23,18 @@ void compare(Bench& bench, int n) {
     const Scene scene = sceneOf(model, kReflections);
     Json line = lineOf(bench, "seed", model);
     bench.say(fmt::format("seed: {} primitives", n));
-    if (const std::string why = bench.renderer.draw(scene, scene.cameras[0], bench.options.size); !why.empty()) return skip(bench, line, why);
-    Seed seed(model, bench.options.size);
+    const Camera& camera = scene.cameras[0];
+    const glm::ivec2 size = bench.options.size;
+    if (const std::string why = bench.renderer.draw(scene, camera, size); !why.empty()) return skip(bench, line, why);
+    Seed seed(model, size);
     if (const std::string why = seed.prepare(); !why.empty()) return skip(bench, line, why);
 
     const Contender contenders[] = {marchbox(bench, scene), [&] { return timeOf([&] { seed.draw(); }); }};
     const Turns turns = takeTurns(contenders, bench.options.rounds);
     Measured measured;
-    if (const std::string why = bench.renderer.measure(scene, scene.cameras[0], bench.options.size, measured); !why.empty()) return skip(bench, line, why);
+    if (const std::string why = bench.renderer.measure(scene, camera, size, measured); !why.empty()) return skip(bench, line, why);
 
-    const TruthPicture truth = truthOf(model, bench.options.size);
+    const TruthPicture truth = truthOf(model, size);
     const SeedPicture picture = seed.read();
     const Errors ours = errorsOf(surfacesOf(measured.channels), truth), seeds = errorsOf(seedSurfaces(picture), truth);
     const double whole = static_cast<double>(std::ranges::count(picture.whole, true)) / static_cast<double>(picture.whole.size());
@@ -41,7 +43,8 @@ void compare(Bench& bench, int n) {
     line["error"] = {{"marchbox", ours}, {"seed", seeds}};
     line["no_worse"] = noWorse(ours, seeds);
     line["seed_whole"] = rounded(whole);
-    if (whole < 1) line["note"] = "the driver ended the seed's shader early in some pixels: its time is a lower bound, its error that of whole pixels";
+    if (whole < 1)
+        line["note"] = "the driver ended the seed's shader early in some pixels: its time is a lower bound, its error of whole pixels only";
     bench.print(line);
 }
 

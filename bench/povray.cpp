@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +23,8 @@ std::string shapeText(const Solid& s) {
     case Solid::Kind::sphere: return fmt::format("sphere {{ {}, {:.17g}", text(s.centre), s.half.x);
     case Solid::Kind::box: return fmt::format("box {{ {}, {}", text(s.centre - s.half), text(s.centre + s.half));
     case Solid::Kind::cylinder:
-        return fmt::format("cylinder {{ {}, {}, {:.17g}", text(s.centre - glm::dvec3{0, s.half.y, 0}), text(s.centre + glm::dvec3{0, s.half.y, 0}), s.half.x);
+        return fmt::format("cylinder {{ {}, {}, {:.17g}", text(s.centre - glm::dvec3{0, s.half.y, 0}),
+                           text(s.centre + glm::dvec3{0, s.half.y, 0}), s.half.x);
     default: return fmt::format("plane {{ y, {:.17g}", s.centre.y);
     }
 }
@@ -38,14 +40,16 @@ std::string partText(const Part& part, const std::string& texture) {
 /// Object number i as a colour: i + 1 in base 256.
 std::string flatTexture(std::size_t i) {
     const std::size_t code = i + 1;
-    return fmt::format(" pigment {{ rgb <{}/255,{}/255,{}/255> }} finish {{ ambient 1 diffuse 0 }}", code >> 16, code >> 8 & 255, code & 255);
+    return fmt::format(" pigment {{ rgb <{}/255,{}/255,{}/255> }} finish {{ ambient 1 diffuse 0 }}", code >> 16, code >> 8 & 255,
+                       code & 255);
 }
 
 std::string cameraText(const Camera& camera) {
     const View view = viewOf(camera);
+    const double size = 2 * view.half;
     return fmt::format("camera {{ {} location {} direction {} right {}*{:.17g}*image_width/image_height up {}*{:.17g} }}\n",
-                       view.parallel ? "orthographic" : "perspective", text(camera.eye), text(view.forward), text(view.right), 2 * view.half,
-                       text(view.up), 2 * view.half);
+                       view.parallel ? "orthographic" : "perspective", text(camera.eye), text(view.forward), text(view.right), size,
+                       text(view.up), size);
 }
 
 /// The bytes of a PPM with 8 bits a channel; empty where it is none.
@@ -75,7 +79,8 @@ std::string povText(const Model& model, bool flat) {
     all += cameraText(model.camera);
     if (!flat) all += fmt::format("light_source {{ {} rgb 1 }}\n", text(lightPosition(model)));
     for (std::size_t i = 0; i < materials().size(); ++i)
-        all += fmt::format("#declare M{} = texture {{ pigment {{ rgb {} }} finish {{ ambient {} diffuse {} phong {} phong_size {} reflection {} }} }}\n",
+        all += fmt::format("#declare M{} = texture {{ pigment {{ rgb {} }} finish {{ ambient {} diffuse {} phong {} phong_size {} "
+                           "reflection {} }} }}\n",
                            i, text(materials()[i].color), kAmbient, kDiffuse, kSpecular, kShininess, kReflected);
     for (std::size_t i = 0; i < model.objects.size(); ++i)
         all += partText(model.objects[i], flat ? flatTexture(i) : fmt::format(" texture {{ M{} }}", model.objects[i].material));
@@ -83,14 +88,16 @@ std::string povText(const Model& model, bool flat) {
 }
 
 bool readPovTimes(const std::string& output, PovTimes& times) {
-    static const std::regex kTrace(R"(Trace Time:[^(\n]{0,200}\(([0-9.]{1,20}) seconds\)\s{1,80}using [0-9]{1,4} thread\(s\) with ([0-9.]{1,20}) CPU-seconds)");
+    static const std::regex kTrace(R"(Trace Time:[^(\n]{0,200}\(([0-9.]{1,20}) seconds\)\s{1,80})"
+                                   R"(using [0-9]{1,4} thread\(s\) with ([0-9.]{1,20}) CPU-seconds)");
     static const std::regex kVersion(R"(Version ([0-9][0-9.]{1,20}[0-9]))");
     std::smatch found;
     const std::size_t from = output.rfind("Trace Time:");
     if (from == std::string::npos) return false;
     const std::string tail = output.substr(from, 400), head = output.substr(0, 400);
     if (!std::regex_search(tail, found, kTrace)) return false;
-    times.trace_ms = 1000 * std::strtod(found.str(1).c_str(), nullptr), times.cpu_ms = 1000 * std::strtod(found.str(2).c_str(), nullptr);
+    times.trace_ms = 1000 * std::strtod(found.str(1).c_str(), nullptr);
+    times.cpu_ms = 1000 * std::strtod(found.str(2).c_str(), nullptr);
     if (std::regex_search(head, found, kVersion)) times.version = found[1];
     return true;
 }
@@ -113,9 +120,11 @@ bool Povray::available() { return std::system("command -v povray >/dev/null 2>&1
 std::string Povray::run(const char* name, PovTimes& times) {
     // The folder's name goes through the environment, so that the shell reads nothing of it.
     setenv("MARCHBOX_BENCH_FOLDER", folder_.c_str(), 1);
-    const std::string output = outputOf(fmt::format("cd \"$MARCHBOX_BENCH_FOLDER\" && povray +I{0}.pov +O{0}.ppm +FP File_Gamma=1.0 +W{1} +H{2} -D -A +Q9 +WT2 -V 2>&1",
-                                                    name, size_.x, size_.y));
-    return readPovTimes(output, times) ? "" : "POV-Ray printed no trace time: " + output.substr(output.size() - std::min<std::size_t>(output.size(), 300));
+    const std::string output = outputOf(fmt::format(
+        "cd \"$MARCHBOX_BENCH_FOLDER\" && povray +I{0}.pov +O{0}.ppm +FP File_Gamma=1.0 +W{1} +H{2} -D -A +Q9 +WT2 -V 2>&1", name, size_.x, size_.y));
+    if (readPovTimes(output, times)) return {};
+    constexpr std::size_t kEnough = 300;
+    return "POV-Ray printed no trace time: " + output.substr(output.size() - std::min(output.size(), kEnough));
 }
 
 std::string Povray::draw(PovTimes& times) { return run("lit", times); }
@@ -123,7 +132,8 @@ std::string Povray::draw(PovTimes& times) { return run("lit", times); }
 std::vector<glm::vec3> Povray::picture() const {
     const std::string bytes = readPpm(folder_ / "lit.ppm", size_);
     std::vector<glm::vec3> colors;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) colors.push_back(glm::vec3{byteOf(bytes, i), byteOf(bytes, i + 1), byteOf(bytes, i + 2)} / 255.0f);
+    for (std::size_t i = 0; i < bytes.size(); i += 3)
+        colors.push_back(glm::vec3{byteOf(bytes, i), byteOf(bytes, i + 1), byteOf(bytes, i + 2)} / 255.0f);
     return colors;
 }
 
@@ -134,7 +144,7 @@ std::string Povray::objects(std::vector<float>& numbers) {
     if (bytes.empty()) return "POV-Ray wrote no picture";
     numbers.clear();
     for (std::size_t i = 0; i < bytes.size(); i += 3)
-        numbers.push_back(static_cast<float>((byteOf(bytes, i) << 16 | byteOf(bytes, i + 1) << 8 | byteOf(bytes, i + 2)))  - 1.0f);
+        numbers.push_back(static_cast<float>(byteOf(bytes, i) << 16 | byteOf(bytes, i + 1) << 8 | byteOf(bytes, i + 2)) - 1.0f);
     return {};
 }
 

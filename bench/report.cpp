@@ -60,8 +60,8 @@ PerPixel touched(const Counts& counts, std::size_t leaves) {
 }
 
 Json toJson(const PerPixel& c) {
-    return {{"primary", rounded(c.primary)}, {"normal", rounded(c.normal)}, {"shadow", rounded(c.shadow)}, {"reflection", rounded(c.reflection)},
-            {"all", rounded(c.primary + c.normal + c.shadow + c.reflection)}};
+    return {{"primary", rounded(c.primary)}, {"normal", rounded(c.normal)}, {"shadow", rounded(c.shadow)},
+            {"reflection", rounded(c.reflection)}, {"all", rounded(c.primary + c.normal + c.shadow + c.reflection)}};
 }
 
 }  // namespace mb::bench

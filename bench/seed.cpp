@@ -47,11 +47,13 @@ std::string Seed::prepare() {
     GLint room = 0;
     gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &room);
     if (model_.objects.size() * sizeof(SeedObject) > static_cast<std::size_t>(room))
-        return fmt::format("the seed's uniform block would need {} bytes; this driver's hold {}", model_.objects.size() * sizeof(SeedObject), room);
+        return fmt::format("the seed's uniform block would need {} bytes; this driver's hold {}",
+                           model_.objects.size() * sizeof(SeedObject), room);
 
     Texts texts;
     for (const ShaderText& text : benchTexts()) texts[std::string(text.path)] = text.text;
-    program_ = makeProgram(resolve(texts, "seed.glsl", fmt::format("#define OBJECTS {}\n#define MATERIALS {}\n", model_.objects.size(), materials().size())));
+    const std::string head = fmt::format("#define OBJECTS {}\n#define MATERIALS {}\n", model_.objects.size(), materials().size());
+    program_ = makeProgram(resolve(texts, "seed.glsl", head));
     if (!program_.usable()) return program_.log;
     objects_ = makeBlock(program_, "Objects", kObjectsPoint);
     materials_ = makeBlock(program_, "Materials", kMaterialsPoint);

@@ -33,7 +33,9 @@ TEST_CASE("contenders take turns, after one call each that does not count") {
 
 TEST_CASE("errors: each pixel is counted once") {
     TruthPicture truth{{3, 2}, 1, {Hit{1, 0}, Hit{2, 1}, std::nullopt, std::nullopt, Hit{5, 2}, Hit{6, 2}}};
-    Surfaces s{{0, 0, 4, -1, -1, 2}, {1.5f, 2, 3, 0, 0, 6}, {false, false, false, false, true, false}, {false, false, false, false, false, true}};
+    Surfaces s{{0, 0, 4, -1, -1, 2}, {1.5f, 2, 3, 0, 0, 6}, {}, {}};
+    s.undecided = {false, false, false, false, true, false};
+    s.left_out = {false, false, false, false, false, true};
     const Errors e = errorsOf(s, truth);
     CHECK(e.pixels == 6);
     CHECK(e.wrong == doctest::Approx(1 / 6.0));         // a hit where there is nothing
@@ -101,7 +103,8 @@ TEST_CASE("POV-Ray's text and the times it prints") {
 
     PovTimes times;
     CHECK(readPovTimes("Ray Tracer Version 3.7.0.10.unofficial (g++)\nParse Time: 0 hours (0.500 seconds)\n"
-                       "  Trace Time:       0 hours  0 minutes  1 seconds (1.061 seconds)\n              using 2 thread(s) with 1.091 CPU-seconds total\n",
+                       "  Trace Time:       0 hours  0 minutes  1 seconds (1.061 seconds)\n"
+                       "              using 2 thread(s) with 1.091 CPU-seconds total\n",
                        times));
     CHECK(times.trace_ms == doctest::Approx(1061));
     CHECK(times.cpu_ms == doctest::Approx(1091));
