@@ -1,5 +1,6 @@
 #include "cli/cli.h"
 
+#include "core/render/targets.h"
 #include "core/scene/file.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 
@@ -67,6 +69,22 @@ void writeText(const std::string& path, const std::string& text) {
     }
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
         throw Failure{kDiskFault, fmt::format("standard output: {}", std::strerror(errno))};
+}
+
+glm::ivec2 parseSize(const std::string& text) {
+    glm::ivec2 size{0};
+    const char* const end = text.data() + text.size();
+    const auto [x, x_error] = std::from_chars(text.data(), end, size.x);
+    if (x_error == std::errc{} && x != end && *x == 'x') {
+        const auto [y, y_error] = std::from_chars(x + 1, end, size.y);
+        if (y_error == std::errc{} && y == end && size.x > 0 && size.y > 0) return size;
+    }
+    throw Failure{kCommandFault, fmt::format("--size {}: expected WxH, as in 640x360", text)};
+}
+
+void checkSize(glm::ivec2 size) {
+    if (const int most = maxTargetSize(); size.x > most || size.y > most)
+        throw Failure{kCommandFault, fmt::format("--size {}x{}: each side must be at most {}", size.x, size.y, most)};
 }
 
 CLI::Validator within(double lo, double hi) {

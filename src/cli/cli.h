@@ -5,6 +5,7 @@
 #include "core/sdf/tree.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/vec2.hpp>
 
 #include <memory>
 #include <string>
@@ -41,7 +42,7 @@ struct Command {
     /// Adds its options to `app` and returns what runs when it is chosen.
     std::function<void()> (*make)(CLI::App& app, Common& common);
 };
-extern const Command kEdit, kRender, kSimulate, kEval, kEffects, kCheck;
+extern const Command kEdit, kRender, kSimulate, kEval, kEffects, kCheck, kBench;
 
 /// The scene of the file, with each `settings` KEY=VALUE applied. Prints the file's warnings unless told to be quiet, and
 /// its faults; a failure carries code 1, 2 (a setting) or 4.
@@ -69,6 +70,10 @@ private:
 
 /// The command line's --set, for the commands that take it.
 void addSettings(CLI::App& app, std::vector<std::string>& settings);
+
+/// The size of --size WxH, or a failure with code 2; and a failure where the current context cannot draw a picture of that size.
+glm::ivec2 parseSize(const std::string& text);
+void checkSize(glm::ivec2 size);
 
 /// A number from lo to hi; not NaN, which CLI::Range lets through.
 CLI::Validator within(double lo, double hi);

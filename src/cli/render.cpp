@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <charconv>
 #include <cmath>
 
 namespace mb::cli {
@@ -38,17 +37,6 @@ constexpr Aov kAovs[] = {
     {"steps", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.steps); }},
     {"state", [](const std::string& p, const Measured& m, const auto&) { return writePfm(p, m.channels.size, m.channels.state); }},
 };
-
-glm::ivec2 parseSize(const std::string& text) {
-    glm::ivec2 size{0};
-    const char* const end = text.data() + text.size();
-    const auto [x, x_error] = std::from_chars(text.data(), end, size.x);
-    if (x_error == std::errc{} && x != end && *x == 'x') {
-        const auto [y, y_error] = std::from_chars(x + 1, end, size.y);
-        if (y_error == std::errc{} && y == end && size.x > 0 && size.y > 0) return size;
-    }
-    throw Failure{kCommandFault, fmt::format("--size {}: expected WxH, as in 640x360", text)};
-}
 
 std::string aovNames() {
     std::string names;
@@ -142,12 +130,6 @@ nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, d
     json["passes"] = renderer.plan().passes.size();
     json["renderer"] = renderer.rendererName();
     return json;
-}
-
-/// Whether the driver can draw a picture of that size; needs a context.
-void checkSize(glm::ivec2 size) {
-    if (const int most = maxTargetSize(); size.x > most || size.y > most)
-        throw Failure{kCommandFault, fmt::format("--size {}x{}: each side must be at most {}", size.x, size.y, most)};
 }
 
 /// Draws once and says how long it took, to the last pixel.

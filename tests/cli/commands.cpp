@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include <sys/wait.h>
@@ -80,7 +81,7 @@ Pfm readPfm(const std::string& path) {
 
 TEST_CASE("help and version; a command line at fault ends with 2") {
     const Scratch scratch;
-    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check"}) {
+    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check", "bench", "bench render"}) {
         CAPTURE(command);
         const Ran help = run(scratch, std::string(command) + " --help");
         CHECK(help.code == 0);
@@ -95,7 +96,8 @@ TEST_CASE("help and version; a command line at fault ends with 2") {
           "render " + scene + " -o x.mp4", "render " + scene + " -o x.jpg", "render " + scene + " -o -",
           "render " + scene + " -o x_%04d.png", "render " + scene + " -o x_%04d.mp4 --frames 2", "render " + scene + " -o x.png --at nan",
           "render " + scene + " -o x.png --size 99999x9", "simulate " + scene + " --seconds nan", "simulate " + scene + " --seconds 1 --dt nan",
-          std::string("bench"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
+          std::string("bench"), std::string("bench nothing"), std::string("bench render --only nonsense"), std::string("bench render --rounds 4"), std::string("bench render --quick --seed 4294967296"),
+          std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
           std::string("--nonsense")}) {
         CAPTURE(arguments);
         const Ran ran = run(scratch, arguments);
@@ -282,4 +284,37 @@ TEST_CASE("effects says what was called for, by what") {
             CHECK(effect["by"].get<std::string>().find("Kr:") != std::string::npos);
             CHECK(effect["evaluations"] > 0);
         }
+}
+
+TEST_CASE("bench render --quick prints a line of JSON a figure") {
+    const Scratch scratch;
+    const Ran ran = run(scratch, "bench render --quick --only seed,growth,counts");
+    REQUIRE(ran.code == 0);
+    CHECK(ran.err == "");
+    std::map<std::string, int> lines;
+    std::istringstream text(ran.out);
+    for (std::string line; std::getline(text, line);) {
+        CAPTURE(line);
+        const nlohmann::json json = nlohmann::json::parse(line);
+        ++lines[json["figure"]];
+        if (json["figure"] == "about" || json.contains("skipped")) continue;
+        CHECK(json["n"] > 0);
+        CHECK(json["width"] == 64);
+        CHECK(json["error"]["marchbox"]["wrong"] < 0.002);
+        if (json.contains("march")) {
+            CHECK(json["march"]["plain_over_least"] > 1.5);
+            CHECK(json["march"]["plain_over_least"] < 1.9);
+        }
+        if (!json.contains("ratio")) continue;
+        CHECK(json["rounds"] == 5);
+        CHECK(json["ratio"]["min"] <= json["ratio"]["median"]);
+        CHECK(json["ratio"]["median"] <= json["ratio"]["max"]);
+        CHECK(json["ms"]["marchbox"] > 0);
+    }
+    CHECK(lines == std::map<std::string, int>{{"about", 1}, {"seed", 1}, {"growth", 2}, {"counts", 5}});
+
+    // Counts are the same on every run, and another seed makes other scenes.
+    const std::string first = run(scratch, "bench render --quick --only counts").out;
+    CHECK(run(scratch, "bench render --quick --only counts").out == first);
+    CHECK(run(scratch, "bench render --quick --only counts --seed 3").out != first);
 }

@@ -23,10 +23,19 @@ std::string read(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The part a path below src/ belongs to: core/render is one of its own.
+/// The part a path below src/ belongs to: core/render is one of its own. bench/ lies beside src/, and is included as such.
 std::string part(const std::string& path) {
     if (path.starts_with("core/render/")) return "render";
     return path.substr(0, path.find('/'));
+}
+
+/// The program's sources, and what each is called in an include.
+std::map<fs::path, std::string> sources() {
+    std::map<fs::path, std::string> found;
+    for (const auto& [folder, from] : {std::pair{kRoot / "src", kRoot / "src"}, std::pair{kRoot / "bench", kRoot}})
+        for (const auto& entry : fs::recursive_directory_iterator(folder))
+            if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") found[entry.path()] = fs::relative(entry.path(), from);
+    return found;
 }
 
 /// Every match of the pattern's first group, line by line.
@@ -41,13 +50,13 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
 TEST_CASE("the arrows: nothing includes what it may not") {
     const std::map<std::string, std::set<std::string>> may = {
         {"core", {"core"}}, {"physics", {"physics", "core"}}, {"render", {"render", "core"}},
-        {"gui", {"gui", "render", "physics", "core"}}, {"cli", {"cli", "gui", "render", "physics", "core"}}};
+        {"gui", {"gui", "render", "physics", "core"}}, {"bench", {"bench", "render", "physics", "core"}},
+        {"cli", {"cli", "gui", "bench", "render", "physics", "core"}}};
     const std::regex quoted(R"re(\n#include "([^"\n]{1,200})")re"), angled(R"re(\n#include <([^>\n]{1,200})>)re");
     int files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "src")) {
-        if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    for (const auto& [file, path] : sources()) {
         ++files;
-        const std::string path = fs::relative(entry.path(), kRoot / "src"), text = '\n' + read(entry.path());
+        const std::string text = '\n' + read(file);
         CAPTURE(path);
         REQUIRE(may.contains(part(path)));
         for (const std::string& included : matches(text, quoted)) {
@@ -66,7 +75,7 @@ TEST_CASE("the arrows: nothing includes what it may not") {
 
 TEST_CASE("the documents name files that exist") {
     const std::regex ticked(R"(`((?:src|shaders|tests|saves|docs|tools|bench)/[A-Za-z0-9_./*-]{0,80}|run|test|LICENSE)`)");
-    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md"}) {
+    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md", "docs/benchmarks.md"}) {
         for (const std::string& named : matches(read(kRoot / document), ticked)) {
             CAPTURE(document);
             CHECK_MESSAGE(fs::exists(kRoot / named), named);
@@ -86,9 +95,5 @@ TEST_CASE("the README's scene reads without a fault, and its commands are of sav
 }
 
 TEST_CASE("no file of the program is so long that it should be two") {
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "src")) {
-        if (!entry.is_regular_file()) continue;
-        const std::string text = read(entry.path());
-        CHECK_MESSAGE(std::ranges::count(text, '\n') <= 330, entry.path().filename().string());
-    }
+    for (const auto& [file, path] : sources()) CHECK_MESSAGE(std::ranges::count(read(file), '\n') <= 330, path);
 }

@@ -1,0 +1,28 @@
+#include "bench/figures.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace mb::bench {
+namespace {
+
+constexpr Figure kFigures[] = {
+    {"seed", "time against the shader marchbox began from, which asks every object at every step", seedFigure},
+    {"growth", "time against that of 100 primitives", growthFigure},
+    {"counts", "evaluations and primitives a pixel, and the march against the least possible; the same on every machine", countsFigure},
+    {"povray", "time against POV-Ray, which meets the same solids by their equations", povrayFigure},
+};
+
+}  // namespace
+
+std::span<const Figure> figures() { return kFigures; }
+
+void run(Bench& bench) {
+    bench.print({{"figure", "about"}, {"renderer", bench.renderer.rendererName()}, {"threads", std::thread::hardware_concurrency()},
+                 {"rounds", bench.options.rounds}, {"seed", bench.options.seed}, {"quick", bench.options.quick}});
+    const auto& only = bench.options.only;
+    for (const Figure& figure : kFigures)
+        if (only.empty() || std::ranges::find(only, figure.name) != only.end()) figure.run(bench);
+}
+
+}  // namespace mb::bench

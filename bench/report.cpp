@@ -1,0 +1,67 @@
+#include "bench/report.h"
+
+#include "core/render/gl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace mb::bench {
+
+double rounded(double x) { return std::strtod(fmt::format("{:.4g}", x).c_str(), nullptr); }
+
+Json toJson(const Spread& s) { return {{"median", rounded(s.median)}, {"min", rounded(s.min)}, {"max", rounded(s.max)}}; }
+
+Json lineOf(const Bench& bench, std::string_view figure, const Model& model) {
+    return {{"figure", figure}, {"scene", model.family}, {"n", model.n}, {"width", bench.options.size.x}, {"height", bench.options.size.y}};
+}
+
+void skip(const Bench& bench, Json line, std::string_view why) {
+    line["skipped"] = why.substr(0, why.find('\n'));
+    bench.print(line);
+}
+
+std::vector<int> sizesOf(const Bench& bench, std::initializer_list<int> sizes) {
+    constexpr int kQuick = 10;
+    std::vector<int> wanted(sizes);
+    if (bench.options.quick) std::erase_if(wanted, [](int n) { return n > kQuick; });
+    return wanted;
+}
+
+void addRatio(Json& line, const Turns& turns, std::string_view ratio_of, std::size_t a, std::size_t b) {
+    line["rounds"] = turns.ms[a].size();
+    line["ratio_of"] = ratio_of;
+    line["ratio"] = toJson(ratio(turns.ms[a], turns.ms[b]));
+    if (turns.foreign_cores) line["foreign_cores"] = std::round(100 * *turns.foreign_cores) / 100;
+}
+
+Contender marchbox(Bench& bench, const Scene& scene) {
+    return [&bench, &scene] {
+        return timeOf([&] {
+            bench.renderer.draw(scene, scene.cameras[0], bench.options.size);
+            gl.Finish();
+        });
+    };
+}
+
+PerPixel evaluations(const Counts& counts) {
+    const double pixels = static_cast<double>(counts.rays.primary);
+    const auto& e = counts.evaluations;
+    const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / pixels; };
+    return {share(e.primary), share(e.normal), share(e.shadow), share(e.reflection)};
+}
+
+PerPixel touched(const Counts& counts, std::size_t leaves) {
+    const PerPixel e = evaluations(counts);
+    const double n = static_cast<double>(leaves);
+    return {e.primary * n, e.normal * n, e.shadow * n, e.reflection * n};
+}
+
+Json toJson(const PerPixel& c) {
+    return {{"primary", rounded(c.primary)}, {"normal", rounded(c.normal)}, {"shadow", rounded(c.shadow)},
+            {"reflection", rounded(c.reflection)}, {"all", rounded(c.primary + c.normal + c.shadow + c.reflection)}};
+}
+
+}  // namespace mb::bench

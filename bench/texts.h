@@ -1,0 +1,9 @@
+#pragma once
+// The benchmarks' own shaders, put into the program when it is built.
+#include "core/render/shader_texts.h"
+
+namespace mb {
+
+std::span<const ShaderText> benchTexts();
+
+}  // namespace mb

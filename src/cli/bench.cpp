@@ -1,0 +1,80 @@
+// marchbox bench: the benchmarks of bench/, as JSON lines.
+#include "cli/cli.h"
+
+#include "bench/figures.h"
+#include "core/render/gl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include <unistd.h>
+
+namespace mb::cli {
+namespace {
+
+struct RenderOptions {
+    bench::Options bench;
+    std::string size;
+};
+
+std::string figureNames() {
+    std::string names;
+    for (const bench::Figure& figure : bench::figures()) names += fmt::format("{}{}", names.empty() ? "" : ", ", figure.name);
+    return names;
+}
+
+void checkNames(const std::vector<std::string>& only) {
+    for (const std::string& name : only)
+        if (std::ranges::find(bench::figures(), name, &bench::Figure::name) == bench::figures().end())
+            throw Failure{kCommandFault, fmt::format("--only {}: there are {}", name, figureNames())};
+}
+
+std::uint32_t parseSeed(const Common& common) {
+    if (common.seed > std::numeric_limits<std::uint32_t>::max())
+        throw Failure{kCommandFault, fmt::format("--seed {}: the scenes' generator takes 32 bits", common.seed)};
+    return static_cast<std::uint32_t>(common.seed);
+}
+
+void runRender(const RenderOptions& options, const Common& common) {
+    checkNames(options.bench.only);
+    const auto context = headlessContext();
+    checkSize(options.bench.size);
+    Renderer renderer;
+    const bool terminal = !common.quiet && isatty(STDERR_FILENO);
+    bench::Bench bench{options.bench, renderer,
+                       [](const bench::Json& line) { writeText("-", line.dump() + '\n'); },
+                       [&](const std::string& what) {
+                           if (!terminal) return;
+                           fmt::print(stderr, "\r\033[K{}", what);
+                           std::fflush(stderr);
+                       }};
+    bench::run(bench);
+    if (terminal) fmt::print(stderr, "\r\033[K");
+}
+
+std::function<void()> make(CLI::App& app, Common& common) {
+    app.require_subcommand(1);
+    CLI::App* render = app.add_subcommand("render", "pictures: against the first shader, against POV-Ray, and in counts");
+    render->fallthrough();
+    render->footer("Example:\n  marchbox bench render --only counts");
+    const auto o = std::make_shared<RenderOptions>();
+    render->add_option("--rounds", o->bench.rounds, "turns each contender takes")->capture_default_str()->check(within(5, 1000));
+    render->add_option("--size", o->size, "WxH pixels (512x512; 64x64 with --quick)");
+    render->add_option("--only", o->bench.only, "the figures wanted, a list with commas, of " + figureNames())->delimiter(',');
+    render->add_flag("--quick", o->bench.quick, "small scenes and pictures only: does it work?");
+    return [o, &app, &common] {
+        if (!o->size.empty()) o->bench.size = parseSize(o->size);
+        else if (o->bench.quick) o->bench.size = {64, 64};
+        if (app.count("--seed") > 0) o->bench.seed = parseSeed(common);
+        runRender(*o, common);
+    };
+}
+
+}  // namespace
+
+const Command kBench{"bench", "benchmarks, as JSON lines", "marchbox bench render --only seed,growth", make};
+
+}  // namespace mb::cli
