@@ -71,7 +71,7 @@ void count(Bench& bench, std::string_view family, int n) {
         line["rays"] = {{"shadow", rounded(static_cast<double>(measured.counts.rays.shadow) / pixels)},
                         {"reflection", rounded(static_cast<double>(measured.counts.rays.reflection) / pixels)}};
         line["evaluations"] = toJson(evaluations(measured.counts));
-        line["touched"] = toJson(touched(measured.counts, makeTree(scene).leaves.size()));
+        line["touched"] = toJson(touched(measured.counts));
         const TruthPicture truth = truthOf(model, bench.options.size);
         line["error"] = {{"marchbox", errorsOf(surfacesOf(measured.channels), truth)}};
         line["reference"] = truth.reference;

@@ -46,18 +46,19 @@ Contender marchbox(Bench& bench, const Scene& scene) {
     };
 }
 
-PerPixel evaluations(const Counts& counts) {
+namespace {
+PerPixel perPixel(const Counts& counts, const Counts::ByKind& kinds) {
     const double pixels = static_cast<double>(counts.rays.primary);
-    const auto& e = counts.evaluations;
     const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / pixels; };
-    return {share(e.primary), share(e.normal), share(e.shadow), share(e.reflection)};
+    return {share(kinds.primary), share(kinds.normal), share(kinds.shadow), share(kinds.reflection)};
+}
+}  // namespace
+
+PerPixel evaluations(const Counts& counts) {
+    return perPixel(counts, counts.evaluations);
 }
 
-PerPixel touched(const Counts& counts, std::size_t leaves) {
-    const PerPixel e = evaluations(counts);
-    const double n = static_cast<double>(leaves);
-    return {e.primary * n, e.normal * n, e.shadow * n, e.reflection * n};
-}
+PerPixel touched(const Counts& counts) { return perPixel(counts, counts.touched); }
 
 Json toJson(const PerPixel& c) {
     return {{"primary", rounded(c.primary)}, {"normal", rounded(c.normal)}, {"shadow", rounded(c.shadow)},

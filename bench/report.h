@@ -46,13 +46,13 @@ void addRatio(Json& line, const Turns& turns, std::string_view ratio_of, std::si
 /// Draws a scene with marchbox, to the last pixel. The scene must have been drawn once.
 Contender marchbox(Bench& bench, const Scene& scene);
 
-/// Primitives touched a pixel, by what asked.
+/// Something counted a pixel, by what asked.
 struct PerPixel {
     double primary, normal, shadow, reflection;
 };
 PerPixel evaluations(const Counts& counts);
-/// Every evaluation walks all leaves, as long as the renderer has no shorter lists: the one place that says so.
-PerPixel touched(const Counts& counts, std::size_t leaves);
+/// Primitives evaluated for that.
+PerPixel touched(const Counts& counts);
 Json toJson(const PerPixel& counts);
 
 }  // namespace mb::bench

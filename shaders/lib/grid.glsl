@@ -24,7 +24,7 @@ struct Cell {
 Cell cellAt(vec3 p) {
     vec3 at = (p - frame.grid_corner.xyz) / frame.grid_corner.w;
     ivec3 i = ivec3(floor(at));
-    ivec3 inside = clamp(i, ivec3(0), frame.grid_size.xyz - 1);
+    ivec3 inside = clamp(i, ivec3(0), max(frame.grid_size.xyz - 1, 0));
     uvec3 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xyz;
     vec3 middle = vec3(i) + 0.5;
     float half_side = 0.5;
@@ -64,13 +64,16 @@ float enterGrid(vec3 o, vec3 d) {
 }
 
 // From t along a ray to the first cell that a surface crosses, or to `far`; `cell` is the one t comes to lie in. The ball of
-// emptiness around an empty cell's middle holds the cell.
+// emptiness around an empty cell's middle holds the cell; `back` is how far it reaches behind t.
 const int SKIP_CAP = 4096;
-float skipEmpty(vec3 o, vec3 d, float t, float far, bool skips, out Cell cell) {
+float skipEmpty(vec3 o, vec3 d, float t, float far, bool skips, out Cell cell, out float back) {
+    back = 0.0;
     for (int i = 0; i < SKIP_CAP; ++i) {
         cell = cellAt(o + d * t);
         if (!skips || !cell.empty || t >= far) break;
-        t = cell.outside ? far : t + max(spanBall(o + d * t - cell.middle, d, cell.ball).y, 0.0);
+        vec2 ball = spanBall(o + d * t - cell.middle, d, cell.ball);
+        if (i == 0 && !cell.outside) back = max(-ball.x, 0.0);
+        t = cell.outside ? far : t + max(ball.y, 0.0);
     }
     if (skips && cell.empty && t < far) cut_short = true;
     return t;

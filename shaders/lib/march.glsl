@@ -3,8 +3,8 @@
 // A step goes as far as all is known to be empty: the sphere of the distance, or further where the field can look ahead
 // (mapAhead: spans of the primitives, cells of the grid). A hit is a change of sign, found by a step just past that or by steps
 // no longer than closeAt(), and then narrowed. A miss is proved: the pieces of emptiness along the ray overlap all the way.
-// Everything else (the budget ran out, a gap between two pieces was not looked into, a touch within the rounding error) is
-// undecided.
+// Everything else (the budget ran out, a gap beside a surface that was passed was not looked into, a touch within the rounding
+// error) is undecided.
 //
 // Sources: Hart, "Sphere Tracing" (1996); Keinert et al., "Enhanced Sphere Tracing" (2014), for the step back where two
 // spheres are disjoint; Ban and Valasek, "Automatic Step Size Relaxation in Sphere Tracing" (2023), for the length of the
@@ -44,7 +44,8 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
     float before = 0.0;        // where it was last accepted, what it was there, and how far from there all is empty
     float f_before = 0.0;
     float reach = 0.0;
-    bool proved = true;        // all of [0, before] lies in emptiness
+    bool proved = true;        // all of [0, before] lies in emptiness, but for what `doubtful` says
+    bool doubtful = false;     // a gap since the surface that is now near: if that is hit, nothing was missed but it
     bool touched = false;      // came within the noise of a surface
     bool on_surface = false;   // started there
     bool bracketed = false;
@@ -63,9 +64,18 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
 #ifdef GRID
         // What no surface crosses is passed without asking.
         Cell cell;
-        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed && march.side > 0.0, cell);
+        float back;
+        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed && march.side > 0.0, cell, back);
         if (landed > t) {
-            if (t - before > reach + noiseAt(ray.travelled + t)) proved = false;
+            bool gap = t - before > reach + back + noiseAt(ray.travelled + t);
+#ifdef RELAXED
+            if (gap && f_before >= closeAt(ray.travelled + before)) {
+                t = before + reach;
+                slope = -1.0;
+                continue;
+            }
+#endif
+            if (doubtful || gap) proved = false;
             t = landed;
             reach = t - before;
             if (t >= far) {
@@ -122,20 +132,21 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
         }
         // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
         bool left_surface = i == 1 && on_surface;
-        if (i > 0 && !left_surface && reach + f < step + noise) proved = false;
+        if (i > 0 && !left_surface && reach + f < step + noise) doubtful = true;
+        float close = closeAt(ray.travelled + t);
+        if (doubtful && f >= close) proved = false;
         touched = touched || (f <= noise && i > 0);
         if (f < march.closest) { march.closest = f; march.t = t; march.leaf = leaf; }
         before = t;
         f_before = max(f, 0.0);
         reach = max(f_before, march.side * found.y - 2.0 * noise);
         if (t + reach >= far) {
-            march.state = proved && !touched ? MISS : UNDECIDED;
+            march.state = proved && !doubtful && !touched ? MISS : UNDECIDED;
             break;
         }
-        float close = closeAt(ray.travelled + t);
         float ahead = reach > f ? reach + found.z * closeAt(ray.travelled + t + reach) : max(f, close);
 #ifdef RELAXED
-        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION)));
+        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION)) - 4.0 * noise);
 #endif
         t = min(t + ahead, far);
     }

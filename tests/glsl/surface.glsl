@@ -8,6 +8,10 @@
 int field = 0;
 float map(vec3 p) { return field == 0 ? sdSphere(p, 2.0) : field == 1 ? sdBox(p, vec3(2.0), 0.0) : 1e9; }
 Nearest nearest(vec3 p) { return foundLeaf(map(p), 0, p); }
+vec3 mapAhead(vec3 p, vec3 d, out int leaf) {
+    leaf = -1;
+    return vec3(map(p), 0.0, 0.0);
+}
 
 #include "lib/camera.glsl"
 #include "lib/tolerance.glsl"
@@ -90,21 +94,21 @@ void test_a_pixel_is_a_miss_until_something_is_kept() {
     CHECK(outcome.state == MISS);
     CHECK(isinf(outcome.depth));
     CHECK(outcome.object == -1.0);
-    keepPrimary(March(UNDECIDED, 3.0, 0.1, 1.0, 7), vec3(0.0, 1.0, 0.0), 2.0);
+    keepPrimary(March(UNDECIDED, 3.0, 0.1, 1.0, 7, -1), vec3(0.0, 1.0, 0.0), 2.0);
     CHECK(outcome.state == UNDECIDED);
     CHECK(outcome.steps == 7.0);
     CHECK(isinf(outcome.depth));  // what was not hit has no depth, even if it is painted as a surface
-    keepPrimary(March(HIT, 3.0, 0.0, 1.0, 9), vec3(0.0, 1.0, 0.0), 2.0);
+    keepPrimary(March(HIT, 3.0, 0.0, 1.0, 9, -1), vec3(0.0, 1.0, 0.0), 2.0);
     CHECK(outcome.depth == 3.0);
     CHECK(outcome.object == 2.0);
     CHECK(outcome.normal.y == 1.0);
 }
 
 void test_evaluations_are_counted_for_what_asked() {
-    countMarch(0, March(HIT, 1.0, 0.0, 1.0, 5));
+    countMarch(0, March(HIT, 1.0, 0.0, 1.0, 5, -1));
     CHECK(outcome.evaluations.x == 5);
     CHECK(outcome.rays.y == 0);
-    countMarch(1, March(UNDECIDED, 1.0, 0.0, 1.0, 3));
+    countMarch(1, March(UNDECIDED, 1.0, 0.0, 1.0, 3, -1));
     CHECK(outcome.evaluations.w == 3);
     CHECK(outcome.rays.y == 1);
     CHECK(outcome.rays.w == 1);

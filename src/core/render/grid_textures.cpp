@@ -116,7 +116,7 @@ void GridTextures::bind(const Program& program) const {
 
 void placeGrid(const Grid& grid, glm::dvec3 origin, GpuFrame& frame) {
     const auto relative = [&](const std::array<double, 3>& p) { return glm::vec4(glm::vec3(glm::dvec3(p[0], p[1], p[2]) - origin), 0); };
-    const bool any = grid.dims().x > 0;
+    const bool any = grid.dims().x > 0 && grid.exact() == Grid::Exact::near_surfaces;
     frame.grid_corner = glm::vec4(glm::vec3(grid.corner() - origin), static_cast<float>(grid.cellSize()));
     frame.box_lo = any ? relative(grid.box().lo) : glm::vec4(static_cast<float>(kEmptyDistance));
     frame.box_hi = any ? relative(grid.box().hi) : glm::vec4(static_cast<float>(kEmptyDistance));

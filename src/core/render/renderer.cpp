@@ -170,23 +170,24 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     ready.frame.reach.w = ready.packed.reach;
     ready.frame.pass.w = static_cast<int>(tree.leaves.size() + tree.branches.size());
     ready.grid = evaluation_ == Evaluation::grid || (evaluation_ == Evaluation::automatic && tree.leaves.size() > kStraightLeaves);
+    GridOnGpu& grid = variant == Variant::evaluate ? exact_ : marched_;
     grid_work_ = {};
     if (ready.grid) {
-        grid_work_ = grid_.follow(tree);
-        placeGrid(grid_, origin, ready.frame);
-        if (ready.why = grid_textures_.upload(grid_, ready.packed); !ready.why.empty()) return ready;
+        grid_work_ = grid.grid.follow(tree);
+        placeGrid(grid.grid, origin, ready.frame);
+        if (ready.why = grid.textures.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
     ready.program = program(variant, tree, ready, ready.why);
     if (!ready.why.empty()) return ready;
     glUseProgram(ready.program->name);
-    if (ready.grid) grid_textures_.bind(*ready.program);
+    if (ready.grid) grid.textures.bind(*ready.program);
     return ready;
 }
 
 const Program* Renderer::program(Variant variant, const Tree& tree, const Ready& ready, std::string& why) {
     const Packed& packed = ready.packed;
-    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), isTurned(tree)};
+    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !ready.grid || isTurned(tree)};
     Texts texts = shaderLibrary();
     texts["scene.glsl"] = ready.grid ? gridGlsl(tree) : sceneGlsl(tree);
     const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",

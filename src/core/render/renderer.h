@@ -103,9 +103,12 @@ private:
     std::string name_;
     GLint block_bytes_ = 0;
     Evaluation evaluation_ = Evaluation::automatic;
-    Grid grid_;
+    struct GridOnGpu {
+        Grid grid;
+        GridTextures textures;
+    };
+    GridOnGpu marched_{Grid(), {}}, exact_{Grid(Grid::Exact::everywhere), {}};  // for pictures; for evaluate()
     GridWork grid_work_;
-    GridTextures grid_textures_;
     Quad quad_;
     std::vector<OwnedBuffer> blocks_;
     Targets picture_, channels_;

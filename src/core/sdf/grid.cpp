@@ -120,7 +120,7 @@ void Grid::layOut() {
 }
 
 GridWork Grid::rebuild() {
-    GridBuilder builder{tree_, corner_, size_, dims_};
+    GridBuilder builder{tree_, corner_, size_, dims_, exact_};
     GridMade made = builder.build(nullptr);
     cells_.assign(static_cast<std::size_t>(dims_.x) * static_cast<std::size_t>(dims_.y) * static_cast<std::size_t>(dims_.z), {});
     at_centre_.assign(cells_.size(), 0);
@@ -131,7 +131,7 @@ GridWork Grid::rebuild() {
     PartList all = partsOf(tree_), unbounded;
     for (const Tree::Part& part : all.parts) {
         const std::span<const Instruction> tape = std::span(all.tape).subspan(part.begin, part.end - part.begin);
-        if (isFinite(bounds(tree_, tape))) continue;
+        if (exact_ == Exact::near_surfaces && isFinite(bounds(tree_, tape))) continue;
         const auto begin = static_cast<std::uint32_t>(unbounded.tape.size());
         unbounded.tape.insert(unbounded.tape.end(), tape.begin(), tape.end());
         unbounded.parts.push_back({begin, static_cast<std::uint32_t>(unbounded.tape.size())});
@@ -177,7 +177,7 @@ void Grid::place(GridMade& made) {
 
 GridWork Grid::update(const std::vector<std::uint32_t>& parts, const Tree& before) {
     // A part matters in a cell if it is, or was, nearer than what is nearest there and twice the cell's radius.
-    GridBuilder builder{tree_, corner_, size_, dims_};
+    GridBuilder builder{tree_, corner_, size_, dims_, exact_};
     std::vector<char> dirty(at_centre_.size(), 0);
     GridWork work;
     for (const std::uint32_t part : parts)
@@ -219,7 +219,7 @@ double Grid::distance(glm::dvec3 p) const {
     const Place place = find(p);
     if (place.cell && place.cell->kind == GridCell::Kind::far) return static_cast<double>(place.cell->safe) - glm::length(p - place.centre);
     const double d = mb::distance<double>(tree_, tapeAt(p), {p.x, p.y, p.z});
-    return place.cell ? d : std::min(d, dims_.x > 0 ? distanceTo(box_, p) : kEmptyDistance);
+    return place.cell || exact_ == Exact::everywhere ? d : std::min(d, dims_.x > 0 ? distanceTo(box_, p) : kEmptyDistance);
 }
 
 double distanceTo(const Box& box, glm::dvec3 p) {

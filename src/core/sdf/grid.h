@@ -53,6 +53,10 @@ double distanceTo(const Box& box, glm::dvec3 p);
 struct GridMade;
 class Grid {
 public:
+    /// For marching, the exact distance is kept where a surface is near, and a bound elsewhere; or it is kept everywhere.
+    enum class Exact { near_surfaces, everywhere };
+    explicit Grid(Exact exact = Exact::near_surfaces) : exact_(exact) {}
+
     /// Makes this the grid of `tree`: all of it where the topology or the bounds changed, else the cells that what moved can
     /// have changed. On as many threads as the machine has; the same cells, whatever their number.
     GridWork follow(const Tree& tree);
@@ -62,6 +66,7 @@ public:
     /// The tape of the cell that p lies in; of a far cell, nothing.
     std::span<const Instruction> tapeAt(glm::dvec3 p) const;
     const Tree& tree() const { return tree_; }
+    Exact exact() const { return exact_; }
 
     glm::dvec3 corner() const { return corner_; }
     double cellSize() const { return size_; }
@@ -86,6 +91,7 @@ private:
     GridWork update(const std::vector<std::uint32_t>& parts, const Tree& before);
     Place find(glm::dvec3 p) const;
 
+    Exact exact_;
     Tree tree_;
     Box box_{};
     glm::dvec3 corner_{0};

@@ -62,7 +62,7 @@ struct GridBuilder::Work {
     }
 
     GridCell cellOf(const PartList& list, double d, double radius) {
-        if (d > kFar * radius || list.parts.empty()) return {GridCell::Kind::far, safely(d), 0, 0, 0, 0, true};
+        if ((d > kFar * radius && !grid.exact_) || list.parts.empty()) return {GridCell::Kind::far, safely(d), 0, 0, 0, 0, true};
         const Tape tape = joined(list);
         GridCell cell{GridCell::Kind::list, safely(d), static_cast<std::uint32_t>(made.items.size()), 0, static_cast<std::uint32_t>(made.tape.size()),
                       static_cast<std::uint32_t>(tape.size()), d > radius};

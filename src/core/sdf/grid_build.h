@@ -22,7 +22,8 @@ struct GridMade {
 
 class GridBuilder {
 public:
-    GridBuilder(const Tree& tree, glm::dvec3 corner, double size, glm::ivec3 dims) : tree_(tree), corner_(corner), size_(size), dims_(dims) {}
+    GridBuilder(const Tree& tree, glm::dvec3 corner, double size, glm::ivec3 dims, Grid::Exact exact)
+        : tree_(tree), corner_(corner), size_(size), dims_(dims), exact_(exact == Grid::Exact::everywhere) {}
     /// The coarse cells marked in `dirty`, or all where there is none, in the order of the recursion.
     GridMade build(const std::vector<char>* dirty) const;
     glm::dvec3 centre(std::uint32_t coarse) const;
@@ -46,6 +47,7 @@ private:
     glm::dvec3 corner_;
     double size_;
     glm::ivec3 dims_;
+    bool exact_;
 };
 
 }  // namespace mb
