@@ -34,6 +34,7 @@ layout(location = 1) out vec4 out_undecided;    // 1 for a pixel whose own ray i
 
 void main() {
     readScene();
+    spare_steps = RETRY * marchSteps();
     Ray ray = cameraRay(gl_FragCoord.xy);
     vec3 color = vec3(0.0);
     float weight = 1.0;

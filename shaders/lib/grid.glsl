@@ -58,7 +58,7 @@ float freeIn(Cell cell, vec3 p, vec3 d) {
 }
 
 // From where on a ray may meet anything: the grid's box, where nothing lies outside.
-float enterGrid(vec3 o, vec3 d) {
+float enterScene(vec3 o, vec3 d) {
     if (frame.grid_size.w != 0) return 0.0;
     return freeBefore(EMPTY, spanAround(o - 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz), d, 0.5 * (frame.box_hi.xyz - frame.box_lo.xyz)));
 }

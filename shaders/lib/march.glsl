@@ -15,6 +15,9 @@ const int STEP_CAP = 16384;        // no loop without a constant bound; the knob
 const int NARROWING_STEPS = 4;     // regula falsi on a bracket no longer than closeAt()
 const float SLOPE_MEMORY = 0.7;
 const float STEEPEST_RECESSION = 0.8;
+const float CARE = 1.0 / 32.0;     // of closeAt(), for a ray's second try
+const int RETRY = 2;               // times the budget, for that try
+int spare_steps = 0;               // for second tries, of all rays of this pixel: RETRY primary budgets
 
 struct March {
     int state;
@@ -38,118 +41,154 @@ Bracket narrowed(Bracket b, float t, float f) {
     return b;
 }
 
+// What is known of a ray so far.
+struct Along {
+    float t;         // where the field is asked next
+    float before;    // where it was last accepted, what it was there, and how far from there all is empty
+    float f_before;
+    float reach;
+    float slope;     // of the distance, remembered from step to step
+    bool proved;     // all of [0, before] lies in emptiness, but for what `doubtful` says
+    bool doubtful;   // a gap since the surface that is now near: if that is hit, nothing was missed but it
+    bool touched;    // came within the noise of a surface
+    bool on_surface; // started there
+    int steps;
+};
+
 March marchWith(Ray ray, float far, int budget, bool narrows) {
     March march = March(UNDECIDED, 0.0, INFINITY, 1.0, 0, -1);
-    float t = 0.0;             // where the field is asked next
-    float before = 0.0;        // where it was last accepted, what it was there, and how far from there all is empty
-    float f_before = 0.0;
-    float reach = 0.0;
-    bool proved = true;        // all of [0, before] lies in emptiness, but for what `doubtful` says
-    bool doubtful = false;     // a gap since the surface that is now near: if that is hit, nothing was missed but it
-    bool touched = false;      // came within the noise of a surface
-    bool on_surface = false;   // started there
+    float entry = min(enterScene(ray.origin, ray.direction), far);
+    Along fresh = Along(entry, 0.0, 0.0, entry, -1.0, true, false, false, false, 0);
+    Along a = fresh;
     bool bracketed = false;
     Bracket bracket;
-#ifdef RELAXED
-    float slope = -1.0;
-#endif
-#ifdef GRID
-    reach = enterGrid(ray.origin, ray.direction);
-    t = min(reach, far);
-#endif
+    float care = 1.0;      // of closeAt(): a ray that ends undecided starts once more, with shorter steps and more of them
+    bool again = false;
+    int limit = budget;
 
+    bool done = false;
     for (int i = 0; i < STEP_CAP; ++i) {
-        if (i >= budget) break;
+        if (i >= limit) again = true;
+        if (again) {
+            done = care < 1.0 || spare_steps == 0;
+            if (done) break;
+            a = fresh;
+            march.closest = INFINITY;
+            march.side = 1.0;
+            care = CARE;
+            limit = i + min(RETRY * budget, spare_steps);
+            spare_steps = max(spare_steps - RETRY * budget, 0);
+            again = false;
+        }
+        float noise = noiseAt(ray.travelled + a.t);
         int leaf;
 #ifdef GRID
         // What no surface crosses is passed without asking.
         Cell cell;
         float back;
-        float landed = skipEmpty(ray.origin, ray.direction, t, far, !bracketed && march.side > 0.0, cell, back);
-        if (landed > t) {
-            bool gap = t - before > reach + back + noiseAt(ray.travelled + t);
+        float landed = skipEmpty(ray.origin, ray.direction, a.t, far, !bracketed && march.side > 0.0, cell, back);
+        if (landed > a.t) {
+            bool gap = a.t - a.before > a.reach + back + noise;
 #ifdef RELAXED
-            if (gap && f_before >= closeAt(ray.travelled + before)) {
-                t = before + reach;
-                slope = -1.0;
+            if (gap && a.f_before >= care * closeAt(ray.travelled + a.before)) {
+                a.t = a.before + a.reach;
+                a.slope = -1.0;
                 continue;
             }
 #endif
-            if (doubtful || gap) proved = false;
-            t = landed;
-            reach = t - before;
-            if (t >= far) {
-                march.state = proved && !touched ? MISS : UNDECIDED;
-                break;
+            if (a.doubtful || gap) a.proved = false;
+            a.t = landed;
+            a.reach = landed - a.before;
+            if (landed >= far) {
+                if (a.proved && !a.touched) {
+                    march.state = MISS;
+                    done = true;
+                    break;
+                }
+                again = true;
+                continue;
             }
         }
-        vec3 found = mapAhead(ray.origin + ray.direction * t, ray.direction, cell, leaf);
+        vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
 #else
-        vec3 found = mapAhead(ray.origin + ray.direction * t, ray.direction, leaf);
+        vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);
 #endif
         float f = march.side * found.x;
         ++march.evaluations;
-        float noise = noiseAt(ray.travelled + t);
         // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
-        if (f < 0.0 && (i == 0 || (i == 1 && on_surface))) {
+        if (f < 0.0 && (a.steps == 0 || (a.steps == 1 && a.on_surface))) {
             march.side = -march.side;
             f = -f;
         }
-        if (i == 0) on_surface = f <= noise;
+        if (a.steps == 0) a.on_surface = f <= noise;
 
         if (bracketed) {
-            bracket = narrowed(bracket, t, f);
-            march.t = t;
+            bracket = narrowed(bracket, a.t, f);
+            march.t = a.t;
             march.leaf = leaf;
-            if (abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS) break;
-            t = within(bracket);
+            done = abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS;
+            if (done) break;
+            a.t = within(bracket);
             continue;
         }
 
-        float step = t - before;
+        float step = a.t - a.before;
 #ifdef RELAXED
         // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
-        if (step > reach + abs(f) + noise && step > reach && f_before >= closeAt(ray.travelled + before)) {
-            t = before + reach;
-            slope = -1.0;
+        if (step > a.reach + abs(f) + noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
+            a.t = a.before + a.reach;
+            a.slope = -1.0;
             continue;
         }
-        if (step > 0.0) slope = mix((f - f_before) / step, slope, SLOPE_MEMORY);
+        if (step > 0.0) a.slope = mix((f - a.f_before) / step, a.slope, SLOPE_MEMORY);
 #endif
         if (f < -noise) {
-            march.t = t;
             march.leaf = leaf;
+            march.t = a.t;
             march.closest = 0.0;
-            march.state = proved || !narrows ? HIT : UNDECIDED;  // whatever stands in the way, a solid in it is a shadow
-            if (!narrows) break;
+            // Whatever was passed unseen, a solid in a light's way is a shadow.
+            march.state = a.proved || !narrows ? HIT : UNDECIDED;
+            done = !narrows;
+            if (done) break;
+            if (!a.proved && care == 1.0) {
+                again = true;
+                continue;
+            }
             // What is proved beyond the last point ends 2 noise before where the sign may change.
             bracketed = true;
-            bool ahead = reach > f_before;
-            float lo = ahead ? before + reach : before;
-            bracket = Bracket(lo, t, ahead ? 2.0 * noise * -f / max(t - lo, 3.0 * noise) : f_before, f, 0);
-            t = within(bracket);
+            bool ahead = a.reach > a.f_before;
+            float lo = ahead ? a.before + a.reach : a.before;
+            bracket = Bracket(lo, a.t, ahead ? 2.0 * noise * -f / max(a.t - lo, 3.0 * noise) : a.f_before, f, 0);
+            a.t = within(bracket);
             continue;
         }
         // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
-        bool left_surface = i == 1 && on_surface;
-        if (i > 0 && !left_surface && reach + f < step + noise) doubtful = true;
-        float close = closeAt(ray.travelled + t);
-        if (doubtful && f >= close) proved = false;
-        touched = touched || (f <= noise && i > 0);
-        if (f < march.closest) { march.closest = f; march.t = t; march.leaf = leaf; }
-        before = t;
-        f_before = max(f, 0.0);
-        reach = max(f_before, march.side * found.y - 2.0 * noise);
-        if (t + reach >= far) {
-            march.state = proved && !doubtful && !touched ? MISS : UNDECIDED;
-            break;
+        bool left_surface = a.steps == 1 && a.on_surface;
+        float close = care * closeAt(ray.travelled + a.t);
+        if (a.steps > 0 && !left_surface && a.reach + f < step + noise) a.doubtful = true;
+        if (a.doubtful && f >= close) a.proved = false;
+        a.touched = a.touched || (f <= noise && a.steps > 0);
+        if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
+        a.before = a.t;
+        a.f_before = max(f, 0.0);
+        a.reach = max(a.f_before, march.side * found.y - 2.0 * noise);
+        if (a.t + a.reach >= far) {
+            if (a.proved && !a.doubtful && !a.touched) {
+                march.state = MISS;
+                done = true;
+                break;
+            }
+            again = true;
+            continue;
         }
-        float ahead = reach > f ? reach + found.z * closeAt(ray.travelled + t + reach) : max(f, close);
+        float ahead = a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : max(f, close);
 #ifdef RELAXED
-        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(slope, STEEPEST_RECESSION)) - 4.0 * noise);
+        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * noise);
 #endif
-        t = min(t + ahead, far);
+        a.t = min(a.t + ahead, far);
+        ++a.steps;
     }
+    if (!done) cut_short = true;
     if (cut_short) march.state = UNDECIDED;
     return march;
 }

@@ -12,11 +12,12 @@
 // a march's step over what is known to be empty; a hit is always a sign of the distance.
 
 // Within a box of these half sides around the origin.
+// Rounding may take a hair off either: both are a millionth larger.
 real awayFromZero(real x) { return pick(abs(x) - 1e-18f, pick(x, -1e-18f, 1e-18f), x); }
 vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
     vec3 inverse = vec3(1.0f / awayFromZero(d.x), 1.0f / awayFromZero(d.y), 1.0f / awayFromZero(d.z));
     vec3 middle = o * inverse;
-    vec3 reach = half_sides * abs(inverse);
+    vec3 reach = half_sides * real(1.000001f) * abs(inverse);
     return vec2(max(-middle.x - reach.x, max(-middle.y - reach.y, -middle.z - reach.z)),
                 min(reach.x - middle.x, min(reach.y - middle.y, reach.z - middle.z)));
 }
@@ -26,7 +27,7 @@ vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
 vec2 spanBall(vec3 o, vec3 d, real radius) {
     real b = 0.0f - dot(o, d);
     vec3 nearest = o + d * b;
-    real h = square(radius) - dot(nearest, nearest);
+    real h = square(radius * real(1.000001f)) - dot(nearest, nearest);
     real s = sqrt(max(h, 0.0f));
     return vec2(b - pick(h, real(-1.0f), s), b + pick(h, real(-1.0f), s));
 }

@@ -23,6 +23,7 @@ float map(vec3 p) {
 }
 
 #define RELAXED
+float enterScene(vec3 o, vec3 d) { return 0.0; }
 vec3 mapAhead(vec3 p, vec3 d, out int leaf) {
     leaf = -1;
     return vec3(map(p), 0.0, 0.0);

@@ -8,6 +8,7 @@
 int field = 0;
 float map(vec3 p) { return field == 0 ? sdSphere(p, 2.0) : field == 1 ? sdBox(p, vec3(2.0), 0.0) : 1e9; }
 Nearest nearest(vec3 p) { return foundLeaf(map(p), 0, p); }
+float enterScene(vec3 o, vec3 d) { return 0.0; }
 vec3 mapAhead(vec3 p, vec3 d, out int leaf) {
     leaf = -1;
     return vec3(map(p), 0.0, 0.0);

@@ -49,12 +49,14 @@ constexpr Effect kEffects[] = {
     {"samples", "", "several rays a pixel", sampleCalls},
 };
 
+constexpr std::int64_t kRetry = 2;  // shaders/lib/march.glsl: primary budgets for the second tries of a pixel's rays
+
 /// Loop iterations of one pass of `lights` lights, each loop's last look at its condition included.
 std::int64_t iterations(const RenderKnobs& knobs, bool reflects, bool shadows, int lights) {
     const std::int64_t bounces = reflects ? knobs.reflections + 1 : 1;
     const int normal = 6, look = 1;
     const std::int64_t light = look + (shadows ? knobs.shadow_steps + look : 0);
-    return look + bounces * (look + knobs.march_steps + look + normal + look + lights * light + look);
+    return look + kRetry * knobs.march_steps + bounces * (look + knobs.march_steps + look + normal + look + lights * light + look);
 }
 
 /// The first leaf with a number that is none, as a sentence, or nothing: min and max drop a NaN, and the shape would be

@@ -114,7 +114,7 @@ std::string sceneGlsl(const Tree& tree) {
                                   ? fmt::format("vec3 mapAhead(vec3 p, vec3 d, out int leaf) {{\n    leaf = -1;\n    float free = {:.1f};\n{}{}    return vec3({}, free, 1.0);\n}}\n",
                                                 kEmptyDistance, w.ahead, count, value)
                                   : std::string("#define RELAXED\nvec3 mapAhead(vec3 p, vec3 d, out int leaf) {\n    leaf = -1;\n    return vec3(map(p), 0.0, 0.0);\n}\n");
-    return fmt::format("{}void readScene() {{\n{}}}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
+    return fmt::format("{}void readScene() {{\n{}}}\nfloat enterScene(vec3 o, vec3 d) {{ return 0.0; }}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
                        read, w.map, count, value, ahead, w.find, count, empty ? fmt::format("foundLeaf({:.1f}, -1, p)", kEmptyDistance) : "n" + w.stack.back());
 }
 
