@@ -135,7 +135,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
         float step = a.t - a.before;
 #ifdef RELAXED
         // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
-        if (step > a.reach + abs(f) + noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
+        if (step > a.reach + noise && step > a.reach + abs(f) - noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
             a.t = a.before + a.reach;
             a.slope = -1.0;
             continue;
@@ -181,7 +181,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             again = true;
             continue;
         }
-        float ahead = a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : max(f, close);
+        float ahead = max(a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : f, close);
 #ifdef RELAXED
         if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * noise);
 #endif

@@ -123,7 +123,7 @@ TEST_CASE("case 3: relaxed steps do not pass through a thin wall") {
         const Inside shell = less(insideOf(sphereSpan(r, {}, 1)), insideOf(sphereSpan(r, {}, 1 - kWall)));
         return firstAhead(less(shell, insideOf(halfSpaceSpan(r, {0, 0, -1}, -kCut))), 200);
     };
-    const Truth plain_steps = [&](const DoubleRay& r) { return plainMarch(tree, r, 1e-4, 200); };
+    const Truth plain_steps = [&](const DoubleRay& r) { return plainMarch(tree, r, 1e-6, 200); };
     for (const glm::dvec3 eye : {glm::dvec3{0.3, 0.4, 4}, glm::dvec3{1.5, 1, 2}, glm::dvec3{0.5, -0.2, -3}, glm::dvec3{0.1, 0.2, 0.1}}) {
         const Camera camera = cameraAt(eye, {0, 0, -0.2});
         const Measured m = headless.measure(s, camera, {320, 240});
