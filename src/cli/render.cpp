@@ -114,19 +114,24 @@ private:
     std::optional<PhysicsWorld> world_;
 };
 
-nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, double first_ms, std::vector<double> later_ms) {
+nlohmann::ordered_json byKind(const Counts::ByKind& k) {
+    return {{"primary", k.primary}, {"normal", k.normal}, {"shadow", k.shadow}, {"reflection", k.reflection}};
+}
+
+/// What the first frame took, then the later ones; `grid` is the first frame's work.
+nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, double first_ms, const GridWork& grid, std::vector<double> later_ms) {
     std::ranges::sort(later_ms);
     const Counts& c = m.counts;
     nlohmann::ordered_json json = {
         {"width", m.channels.size.x}, {"height", m.channels.size.y},
         {"frame_ms", later_ms[later_ms.size() / 2]}, {"first_frame_ms", first_ms},
         {"rays", {{"primary", c.rays.primary}, {"shadow", c.rays.shadow}, {"reflection", c.rays.reflection}}},
-        {"evaluations", {{"primary", c.evaluations.primary}, {"normal", c.evaluations.normal}, {"shadow", c.evaluations.shadow},
-                         {"reflection", c.evaluations.reflection}}},
+        {"evaluations", byKind(c.evaluations)}, {"touched", byKind(c.touched)},
         {"pixels", {{"hit", c.pixels.hit}, {"miss", c.pixels.miss}, {"undecided", c.pixels.undecided}}},
         {"undecided_rays", {{"shadow", c.undecided_rays.shadow}, {"reflection", c.undecided_rays.reflection}}}};
     json["effects"] = nlohmann::ordered_json::array();
     for (const Plan::Called& called : renderer.plan().called) json["effects"].push_back(called.effect->name);
+    if (grid.whole) json["grid"] = {{"cells", grid.cells}, {"evaluations", grid.evaluations}, {"build_ms", grid.ms}};
     json["passes"] = renderer.plan().passes.size();
     json["renderer"] = renderer.rendererName();
     return json;
@@ -149,6 +154,7 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     checkSize(size);
     Renderer renderer;
     const double first_ms = drawTimed(renderer, scene, camera, size);
+    const GridWork grid = renderer.gridWork();
     const std::vector<glm::vec3> picture = renderer.readPicture();
     orDiskFault(writePng(options.out, size, picture));
     if (const std::size_t undecided = renderer.countUndecided(); undecided > 0 && !common.quiet)
@@ -163,7 +169,7 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     orInputFault(renderer.measure(scene, camera, size, measured));
     const std::string stem = options.out.ends_with(".png") ? options.out.substr(0, options.out.size() - 4) : options.out;
     for (const Aov* aov : aovs) orDiskFault(aov->write(fmt::format("{}.{}.pfm", stem, aov->name), measured, picture));
-    if (!options.stats.empty()) writeText(options.stats, statistics(renderer, measured, first_ms, later_ms).dump(2) + '\n');
+    if (!options.stats.empty()) writeText(options.stats, statistics(renderer, measured, first_ms, grid, later_ms).dump(2) + '\n');
 }
 
 void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const Common& common) {

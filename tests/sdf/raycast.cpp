@@ -1,6 +1,8 @@
 // A ray against the field, held to closed forms; and the ray of a pixel, held to the formula the command line states.
 #include "core/scene/camera.h"
 #include "core/sdf/raycast.h"
+#include "scenes.h"
+#include "sdf/draw.h"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -116,4 +118,26 @@ TEST_CASE("the ray of a pixel is the command line's formula") {
     }
     camera.eye = camera.target;
     CHECK(glm::length(cameraRay(camera, size, {1, 1}).direction) == doctest::Approx(1));
+}
+
+TEST_CASE("of thousands of objects a ray asks those it may meet, and finds what it finds among all") {
+    Draw draw(61);
+    Scene many;
+    for (int i = 0; i < 3000; ++i)
+        addObject(many, i % 2 == 0 ? "sphere" : "box", {0.05, 0.1, 0.07, 0}, {draw.uniform(-3, 3), draw.uniform(-3, 3), draw.uniform(-3, 3)});
+    const Tree tree = makeTree(many);
+    // The same as one part: nothing is left out.
+    Tree one = tree;
+    one.parts = {{0, static_cast<std::uint32_t>(tree.program.size())}};
+    int hits = 0;
+    for (int i = 0; i < times(60); ++i) {
+        const glm::dvec3 from{draw.uniform(-5, 5), draw.uniform(-5, 5), 5}, way{draw.uniform(-0.4, 0.4), draw.oneIn(3) ? 0 : draw.uniform(-0.4, 0.4), -1};
+        const RayEnd some = raycast(tree, from, way, 20), all = raycast(one, from, way, 20);
+        CHECK(some.state == all.state);
+        if (some.state != RayState::hit) continue;
+        ++hits;
+        CHECK(std::fabs(some.t - all.t) < 1e-9);
+        CHECK(some.index == all.index);
+    }
+    CHECK(hits > 10);
 }

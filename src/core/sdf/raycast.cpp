@@ -1,5 +1,7 @@
 #include "core/sdf/raycast.h"
 
+#include "core/sdf/prune.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,6 +18,7 @@ constexpr int kNarrowingSteps = 100;
 
 struct Marcher {
     const Tree& tree;
+    std::span<const Instruction> tape;
     glm::dvec3 origin, direction;
     int evaluations = 0;
 
@@ -23,7 +26,7 @@ struct Marcher {
     double operator()(double t) {
         ++evaluations;
         const glm::dvec3 p = at(t);
-        return distance<double>(tree, {p.x, p.y, p.z});
+        return distance<double>(tree, tape, {p.x, p.y, p.z});
     }
 };
 
@@ -40,6 +43,38 @@ double narrow(Marcher& march, double side, double lo, double hi) {
     return hi;
 }
 
+constexpr std::size_t kManyParts = 64;  // fewer are asked all
+
+/// Whether the line ahead of the origin meets the box, grown a little for rounding (Kay and Kajiya, "Ray Tracing Complex
+/// Scenes", 1986: slabs).
+bool meets(const Box& box, glm::dvec3 origin, glm::dvec3 direction) {
+    double from = 0, to = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double slack = 1e-9 * (1 + std::fabs(origin[i])), lo = box.lo[k] - slack - origin[i], hi = box.hi[k] + slack - origin[i];
+        if (direction[i] == 0) {
+            if (lo > 0 || hi < 0) return false;
+            continue;
+        }
+        const double a = lo / direction[i], b = hi / direction[i];
+        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+    }
+    return from <= to;
+}
+
+/// Of a tree of many parts, those whose boxes the ray meets: it can meet no other.
+Tape partsAhead(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction) {
+    PartList list;
+    for (const Tree::Part& part : tree.parts) {
+        const std::span<const Instruction> tape = std::span(tree.program).subspan(part.begin, part.end - part.begin);
+        if (!meets(bounds(tree, tape), origin, direction)) continue;
+        const auto begin = static_cast<std::uint32_t>(list.tape.size());
+        list.tape.insert(list.tape.end(), tape.begin(), tape.end());
+        list.parts.push_back({begin, static_cast<std::uint32_t>(list.tape.size())});
+    }
+    return joined(list);
+}
+
 bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
@@ -50,12 +85,15 @@ RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double
     if (!finite(origin) || !std::isfinite(length) || length == 0 || !(max_distance >= 0)) return end;
     if (tree.program.empty()) return end.state = RayState::miss, end.t = max_distance, end.closest = kEmptyDistance, end;
 
-    Marcher march{tree, origin, direction / length};
+    const bool many = tree.parts.size() > kManyParts;
+    const Tape ahead = many ? partsAhead(tree, origin, direction / length) : Tape{};
+    if (many && ahead.empty()) end.state = RayState::miss, end.t = max_distance, end.closest = kEmptyDistance;
+    Marcher march{tree, many ? ahead : tree.program, origin, direction / length};
     const double reach = glm::length(origin);
     double side = 1, t = 0, before = 0, f_before = 0;
     bool proved = true, on_surface = false;
-    end.closest = std::numeric_limits<double>::infinity();
-    while (march.evaluations < kBudget) {
+    if (!many || !ahead.empty()) end.closest = std::numeric_limits<double>::infinity();
+    while (end.state != RayState::miss && march.evaluations < kBudget) {
         double f = side * march(t);
         if (std::isnan(f)) break;
         const double noise = kNoise * (reach + t);

@@ -10,7 +10,7 @@ enum class RayState { miss, hit, undecided };
 struct RayEnd {
     RayState state = RayState::undecided;
     double t = 0;           // metres along the ray: of the hit, else of the closest approach
-    double closest = 0;     // of a ray that did not hit: the distance there
+    double closest = 0;     // of a ray that did not hit: the distance there, to what it may have hit
     int leaf = -1;          // of Tree::leaves, whose surface is nearest at t; −1: the tree is empty
     std::size_t index = 0;  // that leaf's object in Scene::objects
     int evaluations = 0;
