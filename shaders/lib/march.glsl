@@ -60,135 +60,123 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
     float entry = min(enterScene(ray.origin, ray.direction), far);
     Along fresh = Along(entry, 0.0, 0.0, entry, -1.0, true, false, false, false, 0);
     Along a = fresh;
-    bool bracketed = false;
-    Bracket bracket;
-    float care = 1.0;      // of closeAt(): a ray that ends undecided starts once more, with shorter steps and more of them
-    bool again = false;
-    int limit = budget;
+    bool decided = false;
 
-    bool done = false;
-    for (int i = 0; i < STEP_CAP; ++i) {
-        if (i >= limit) again = true;
-        if (again) {
-            done = care < 1.0 || spare_steps == 0;
-            if (done) break;
-            a = fresh;
-            march.closest = INFINITY;
-            march.side = 1.0;
-            care = CARE;
-            limit = i + min(RETRY * budget, spare_steps);
-            spare_steps = max(spare_steps - RETRY * budget, 0);
-            again = false;
-        }
-        float noise = noiseAt(ray.travelled + a.t);
-        int leaf;
+    // A ray that ends undecided starts once more, with shorter steps near surfaces and more of them.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        float care = attempt == 0 ? 1.0 : CARE;  // of closeAt()
+        int limit = attempt == 0 ? budget : min(RETRY * budget, spare_steps);
+        spare_steps -= attempt * limit;
+        a = fresh;
+        march.closest = INFINITY;
+        march.side = 1.0;
+        bool bracketed = false, ended = false;
+        Bracket bracket;
+
+        for (int i = 0; i < STEP_CAP; ++i) {
+            ended = i >= limit;
+            if (ended) break;
+            float noise = noiseAt(ray.travelled + a.t);
+            int leaf;
 #ifdef GRID
-        // What no surface crosses is passed without asking.
-        Cell cell;
-        float back;
-        float landed = skipEmpty(ray.origin, ray.direction, a.t, far, !bracketed && march.side > 0.0, cell, back);
-        if (landed > a.t) {
-            bool gap = a.t - a.before > a.reach + back + noise;
+            // What no surface crosses is passed without asking.
+            Cell cell;
+            float back;
+            float landed = skipEmpty(ray.origin, ray.direction, a.t, far, !bracketed && march.side > 0.0, cell, back);
+            if (landed > a.t) {
+                bool gap = a.t - a.before > a.reach + back + noise;
 #ifdef RELAXED
-            if (gap && a.f_before >= care * closeAt(ray.travelled + a.before)) {
+                if (gap && a.f_before >= care * closeAt(ray.travelled + a.before)) {
+                    a.t = a.before + a.reach;
+                    a.slope = -1.0;
+                    continue;
+                }
+#endif
+                if (a.doubtful || gap) a.proved = false;
+                a.t = landed;
+                a.reach = landed - a.before;
+                if (landed >= far) {
+                    decided = a.proved && !a.touched;
+                    ended = true;
+                    break;
+                }
+            }
+            vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
+#else
+            vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);
+#endif
+            float f = march.side * found.x;
+            ++march.evaluations;
+            // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
+            if (f < 0.0 && (a.steps == 0 || (a.steps == 1 && a.on_surface))) {
+                march.side = -march.side;
+                f = -f;
+            }
+            if (a.steps == 0) a.on_surface = f <= noise;
+
+            if (bracketed) {
+                bracket = narrowed(bracket, a.t, f);
+                march.t = a.t;
+                march.leaf = leaf;
+                ended = abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS;
+                if (ended) break;
+                a.t = within(bracket);
+                continue;
+            }
+
+            float step = a.t - a.before;
+#ifdef RELAXED
+            // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
+            if (step > a.reach + noise && step > a.reach + abs(f) - noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
                 a.t = a.before + a.reach;
                 a.slope = -1.0;
                 continue;
             }
+            if (step > 0.0) a.slope = mix((f - a.f_before) / step, a.slope, SLOPE_MEMORY);
 #endif
-            if (a.doubtful || gap) a.proved = false;
-            a.t = landed;
-            a.reach = landed - a.before;
-            if (landed >= far) {
-                if (a.proved && !a.touched) {
-                    march.state = MISS;
-                    done = true;
-                    break;
-                }
-                again = true;
+            if (f < -noise) {
+                march.leaf = leaf;
+                march.t = a.t;
+                march.closest = 0.0;
+                // Whatever was passed unseen, a solid in a light's way is a shadow.
+                decided = a.proved || !narrows;
+                march.state = decided ? HIT : UNDECIDED;
+                ended = !narrows || (!decided && attempt == 0 && spare_steps > 0);
+                if (ended) break;
+                // What is proved beyond the last point ends 2 noise before where the sign may change.
+                bracketed = true;
+                bool ahead = a.reach > a.f_before;
+                float lo = ahead ? a.before + a.reach : a.before;
+                bracket = Bracket(lo, a.t, ahead ? 2.0 * noise * -f / max(a.t - lo, 3.0 * noise) : a.f_before, f, 0);
+                a.t = within(bracket);
                 continue;
             }
-        }
-        vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
-#else
-        vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);
-#endif
-        float f = march.side * found.x;
-        ++march.evaluations;
-        // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
-        if (f < 0.0 && (a.steps == 0 || (a.steps == 1 && a.on_surface))) {
-            march.side = -march.side;
-            f = -f;
-        }
-        if (a.steps == 0) a.on_surface = f <= noise;
-
-        if (bracketed) {
-            bracket = narrowed(bracket, a.t, f);
-            march.t = a.t;
-            march.leaf = leaf;
-            done = abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS;
-            if (done) break;
-            a.t = within(bracket);
-            continue;
-        }
-
-        float step = a.t - a.before;
-#ifdef RELAXED
-        // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
-        if (step > a.reach + noise && step > a.reach + abs(f) - noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
-            a.t = a.before + a.reach;
-            a.slope = -1.0;
-            continue;
-        }
-        if (step > 0.0) a.slope = mix((f - a.f_before) / step, a.slope, SLOPE_MEMORY);
-#endif
-        if (f < -noise) {
-            march.leaf = leaf;
-            march.t = a.t;
-            march.closest = 0.0;
-            // Whatever was passed unseen, a solid in a light's way is a shadow.
-            march.state = a.proved || !narrows ? HIT : UNDECIDED;
-            done = !narrows;
-            if (done) break;
-            if (!a.proved && care == 1.0) {
-                again = true;
-                continue;
-            }
-            // What is proved beyond the last point ends 2 noise before where the sign may change.
-            bracketed = true;
-            bool ahead = a.reach > a.f_before;
-            float lo = ahead ? a.before + a.reach : a.before;
-            bracket = Bracket(lo, a.t, ahead ? 2.0 * noise * -f / max(a.t - lo, 3.0 * noise) : a.f_before, f, 0);
-            a.t = within(bracket);
-            continue;
-        }
-        // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
-        bool left_surface = a.steps == 1 && a.on_surface;
-        float close = care * closeAt(ray.travelled + a.t);
-        if (a.steps > 0 && !left_surface && a.reach + f < step + noise) a.doubtful = true;
-        if (a.doubtful && f >= close) a.proved = false;
-        a.touched = a.touched || (f <= noise && a.steps > 0);
-        if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
-        a.before = a.t;
-        a.f_before = max(f, 0.0);
-        a.reach = max(a.f_before, march.side * found.y - 2.0 * noise);
-        if (a.t + a.reach >= far) {
-            if (a.proved && !a.doubtful && !a.touched) {
-                march.state = MISS;
-                done = true;
+            // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
+            bool left_surface = a.steps == 1 && a.on_surface;
+            float close = care * closeAt(ray.travelled + a.t);
+            if (a.steps > 0 && !left_surface && a.reach + f < step + noise) a.doubtful = true;
+            if (a.doubtful && f >= close) a.proved = false;
+            a.touched = a.touched || (f <= noise && a.steps > 0);
+            if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
+            a.before = a.t;
+            a.f_before = max(f, 0.0);
+            a.reach = max(a.f_before, march.side * found.y - 2.0 * noise);
+            if (a.t + a.reach >= far) {
+                decided = a.proved && !a.doubtful && !a.touched;
+                ended = true;
                 break;
             }
-            again = true;
-            continue;
-        }
-        float ahead = max(a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : f, close);
+            float ahead = max(a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : f, close);
 #ifdef RELAXED
-        if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * noise);
+            if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * noise);
 #endif
-        a.t = min(a.t + ahead, far);
-        ++a.steps;
+            a.t = min(a.t + ahead, far);
+            ++a.steps;
+        }
+        if (!ended) cut_short = true;
+        if (decided || cut_short || spare_steps <= 0) break;
     }
-    if (!done) cut_short = true;
+    if (decided && march.state != HIT) march.state = MISS;
     if (cut_short) march.state = UNDECIDED;
     return march;
 }
