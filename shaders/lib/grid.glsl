@@ -1,18 +1,17 @@
 // The grid of src/core/sdf/grid.h: the cell a point lies in, and the records its items name. In textures, since a scene of
 // thousands outgrows a uniform block; a linear index i is at (i % ROW, i / ROW).
 
-uniform usampler2D grid_cells;  // x: the first item; y: how many, or what else it is; z: the distance at an empty one's centre
-uniform usampler2D grid_items;  // x: code, how it is joined, record; y: the record of the operator that joins it
+uniform usampler2D grid_cells;  // x: the first item, or a brick's first cell; y: the distance at an empty cell's centre, or 0
+uniform usampler2D grid_items;  // x: code, how it is joined, whether it is the last, record; y: the record of what joins it
 const int ROW_BITS = 11;
-const uint FAR_CELL = 0xFFFFFFFFu;
-const uint BRICK_CELL = 0xFFFFFFFEu;
-const uint EMPTY_LIST = 0x40000000u;  // beside the count: no surface crosses the cell
+const uint NO_ITEMS = 0xFFFFFFFFu;
+const uint BRICK_CELL = 0xFFFFFFFFu;
 const int BRICK = 4;            // cells along its side
 
 ivec2 texelPlace(int i) { return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS); }
 
 struct Cell {
-    int first, last;  // its items
+    int first;        // its first item; -1: it has none
     float safe;       // no surface is nearer than this, unless an item says so
     float ball;       // of an empty one: around its middle there is nothing as far as this
     bool empty;       // no surface crosses it
@@ -25,28 +24,27 @@ Cell cellAt(vec3 p) {
     vec3 at = (p - frame.grid_corner.xyz) / frame.grid_corner.w;
     ivec3 i = ivec3(floor(at));
     ivec3 inside = clamp(i, ivec3(0), max(frame.grid_size.xyz - 1, 0));
-    uvec3 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xyz;
+    uvec2 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xy;
     vec3 middle = vec3(i) + 0.5;
     float half_side = 0.5;
     if (cell.y == BRICK_CELL) {
         ivec3 k = clamp(ivec3((at - vec3(i)) * float(BRICK)), ivec3(0), ivec3(BRICK - 1));
         middle = vec3(i) + (vec3(k) + 0.5) / float(BRICK);
         half_side = 0.5 / float(BRICK);
-        cell = texelFetch(grid_cells, texelPlace(int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x), 0).xyz;
+        cell = texelFetch(grid_cells, texelPlace(int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x), 0).xy;
     }
 
     // Beyond the grid are the parts without bounds; all else is as near as its box, at least.
     if (i != inside) {
         vec3 out_of = max(max(frame.box_lo.xyz - p, p - frame.box_hi.xyz), 0.0);
-        return Cell(0, frame.grid_size.w, length(out_of), 0.0, frame.grid_size.w == 0, true, 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz),
+        return Cell(frame.grid_size.w == 0 ? -1 : 0, length(out_of), 0.0, frame.grid_size.w == 0, true, 0.5 * (frame.box_lo.xyz + frame.box_hi.xyz),
                     0.5 * (frame.box_hi.xyz - frame.box_lo.xyz));
     }
-    bool far = cell.y == FAR_CELL;
-    float ball = uintBitsToFloat(cell.z);
+    float ball = uintBitsToFloat(cell.y);
     vec3 centre = frame.grid_corner.xyz + middle * frame.grid_corner.w;
-    int count = far ? 0 : int(cell.y & ~EMPTY_LIST);
-    return Cell(int(cell.x), int(cell.x) + count, far ? ball - length(p - centre) : EMPTY, ball, (cell.y & EMPTY_LIST) != 0u, false,
-                centre, vec3(half_side * frame.grid_corner.w));
+    bool none = cell.x == NO_ITEMS;
+    return Cell(none ? -1 : int(cell.x), none ? ball - length(p - centre) : EMPTY, ball, cell.y != 0u, false, centre,
+                vec3(half_side * frame.grid_corner.w));
 }
 
 // How far from p along d the cell's list is all there is; outside, how far it is to the grid. A list holds a little beyond
@@ -81,8 +79,9 @@ float skipEmpty(vec3 o, vec3 d, float t, float far, bool skips, out Cell cell, o
 
 struct Item {
     int code, how, record, joined;
+    bool last;
 };
 Item itemAt(int i) {
     uvec2 item = texelFetch(grid_items, texelPlace(i), 0).xy;
-    return Item(int(item.x & 63u), int((item.x >> 6) & 63u), int(item.x >> 12), int(item.y));
+    return Item(int(item.x & 63u), int((item.x >> 6) & 15u), int(item.x >> 12), int(item.y), (item.x & 2048u) != 0u);
 }

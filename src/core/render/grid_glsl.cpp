@@ -104,7 +104,7 @@ std::string registers(std::string_view type, std::string_view name, int depth) {
 /// llvmpipe masks what an `if` encloses and skips nothing: whatever no item of the scene can ask for is not written.
 std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
     std::string text = fmt::format("{1} {{\n{5}    {0} top = {2};\n{3}    vec3 q = p;\n{4}    int i = cell.first;\n"
-                                   "    for (; i < cell.last; ++i) {{\n        Item item = itemAt(i);\n        Node node = recordAt(item.record);\n"
+                                   "    bool more = i >= 0;\n    while (more) {{\n        Item item = itemAt(i);\n        Node node = recordAt(item.record);\n"
                                    "        vec3 at = local(q, node);\n",
                                    f.type, f.head, f.empty, registers(f.type, "top", stack),
                                    registers("vec3", "q", warps + 1) + (f.looks_ahead ? "    float exit = freeIn(cell, p, d), free = exit;\n" : ""),
@@ -133,7 +133,7 @@ std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
         if (!used.folds.empty())
             text += fmt::format("        else {{ float k = recordTexel(item.joined * NODE_TEXELS).w;{} top = {}; }}\n", f.looks_ahead ? " if (k > 0.0) free = 0.0;" : "", f.fold);
     }
-    return text + fmt::format("    }}\n    if (i < cell.last) cut_short = true;\n{}    return {};\n}}\n",
+    return text + fmt::format("        more = !item.last;\n        ++i;\n    }}\n    if (more) cut_short = true;\n{}    return {};\n}}\n",
                               !f.looks_ahead ? "" : f.type == "Lead" ? "    leaf = top.leaf;\n" : "    leaf = -1;\n", f.result);
 }
 

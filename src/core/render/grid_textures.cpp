@@ -10,7 +10,7 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kRow = 2048;
-constexpr std::uint32_t kFarCell = 0xFFFFFFFFu, kBrickCell = 0xFFFFFFFEu, kEmptyList = 0x40000000u;
+constexpr std::uint32_t kNoItems = 0xFFFFFFFFu, kBrickCell = 0xFFFFFFFFu;
 
 std::size_t rowsFor(std::size_t texels) { return std::max<std::size_t>((texels + kRow - 1) / kRow, 1); }
 
@@ -26,27 +26,25 @@ OwnedTexture makeRows(std::size_t rows, GLint kind, GLenum format, GLenum type) 
 }
 
 void packCell(const GridCell& cell, std::uint32_t* out) {
-    out[0] = cell.first;
-    out[1] = cell.kind == GridCell::Kind::far ? kFarCell : cell.kind == GridCell::Kind::brick ? kBrickCell : cell.count | (cell.empty ? kEmptyList : 0);
-    out[2] = std::bit_cast<std::uint32_t>(cell.safe);
+    out[0] = cell.kind == GridCell::Kind::far ? kNoItems : cell.first;
+    out[1] = cell.kind == GridCell::Kind::brick ? kBrickCell : std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f);
 }
 
 }  // namespace
 
-/// The rows of a texture, made anew where it has become too low.
+/// The rows of a texture of two 32-bit numbers a texel, made anew where it has become too low.
 void GridTextures::write(Rows& rows, const std::vector<std::uint32_t>& words, std::size_t first_row, std::size_t last_row) {
-    const std::size_t words_a_row = rows.words * kRow, wanted = words.size() / words_a_row;
-    const GLenum format = rows.words == 4 ? GL_RGBA_INTEGER : GL_RG_INTEGER;
+    const std::size_t wanted = words.size() / (2 * kRow);
     if (static_cast<std::size_t>(rows.rows) < wanted) {
         const std::size_t room = std::min<std::size_t>(wanted + wanted / 2, 16'384);
-        rows.texture = makeRows(room, rows.words == 4 ? GL_RGBA32UI : GL_RG32UI, format, GL_UNSIGNED_INT);
+        rows.texture = makeRows(room, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT);
         rows.rows = static_cast<int>(room);
         first_row = 0, last_row = wanted;
     }
     gl.BindTexture(GL_TEXTURE_2D, rows.texture);
     if (first_row < last_row)
         gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(first_row), static_cast<GLsizei>(kRow), static_cast<GLsizei>(last_row - first_row),
-                         format, GL_UNSIGNED_INT, words.data() + first_row * words_a_row);
+                         GL_RG_INTEGER, GL_UNSIGNED_INT, words.data() + first_row * 2 * kRow);
 }
 
 std::string GridTextures::upload(Grid& grid, const Packed& packed) {
@@ -64,15 +62,15 @@ std::string GridTextures::upload(Grid& grid, const Packed& packed) {
     std::vector<std::uint32_t> changed = grid.takeChangedCells();
     const bool whole = generation_ != grid.generation();
     generation_ = grid.generation();
-    cell_words_.resize(cell_rows * cells_.words * kRow);
+    cell_words_.resize(cell_rows * 2 * kRow);
     if (whole) {
-        for (std::size_t i = 0; i < grid.cells().size(); ++i) packCell(grid.cells()[i], &cell_words_[cells_.words * i]);
+        for (std::size_t i = 0; i < grid.cells().size(); ++i) packCell(grid.cells()[i], &cell_words_[2 * i]);
         write(cells_, cell_words_, 0, cell_rows);
         items_sent_ = 0;
     } else if (!changed.empty()) {
         std::ranges::sort(changed);
         std::size_t row = changed.front() / kRow;
-        for (const std::uint32_t i : changed) packCell(grid.cells()[i], &cell_words_[cells_.words * i]);
+        for (const std::uint32_t i : changed) packCell(grid.cells()[i], &cell_words_[2 * i]);
         for (const std::uint32_t i : changed) {
             if (i / kRow == row) continue;
             write(cells_, cell_words_, row, row + 1);

@@ -16,13 +16,12 @@ public:
 private:
     /// A texture of rows of 2,048 texels, as high as it needs to be.
     struct Rows {
-        std::size_t words;  // of 32 bits a texel
-        OwnedTexture texture{};
+        OwnedTexture texture;
         int rows = 0;
     };
     void write(Rows& rows, const std::vector<std::uint32_t>& words, std::size_t first_row, std::size_t last_row);
 
-    Rows cells_{4}, items_{2}, records_{4};
+    Rows cells_, items_, records_;
     std::uint64_t generation_ = 0;
     std::size_t items_sent_ = 0;
     std::vector<std::uint32_t> cell_words_, item_words_;

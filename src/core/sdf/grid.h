@@ -17,9 +17,10 @@ namespace mb {
 /// A step of a cell's tape as the GPU runs it, over an accumulator and a stack under it: it computes a value (a leaf's, or the
 /// one popped), then pushes it or joins it with the top.
 struct GridItem {
-    std::uint32_t word = 0;      // code | how << 6 | record << 12
+    std::uint32_t word = 0;      // code | how << 6 | 1 << 11 if it is its tape's last | record << 12
     std::uint32_t joined = 0;    // the record of the fold that joins it
 };
+inline constexpr std::uint32_t kItemLast = 1u << 11;
 inline constexpr std::uint32_t kItemPop = 61, kItemPush = 0, kItemJoin = 1, kItemFolds = 2;
 /// A leaf's code is its row in primitives(); that of `enter` and `wrap`, these plus the row in operators(). A fold's `how` is
 /// kItemFolds plus its row.

@@ -48,6 +48,7 @@ void appendItems(const Tree& tree, std::span<const Instruction> tape, std::vecto
         case Instruction::Kind::wrap: out.push_back(item(kItemWrap + rowOf(tree.branches[step.index].op), kItemPush, branchRecord(tree, step.index))); break;
         }
     }
+    if (!tape.empty()) out.back().word |= kItemLast;
     static_assert(kMostLeaves < (1u << 19), "a record's number has 20 bits");
 }
 
