@@ -45,7 +45,7 @@ struct GridBuilder::Work {
         PartList& less = kept.back();
         const double d = pruner.prune(parts, c, grid.radius(), less);
         GridMade::Coarse& cell = made.cells.emplace_back(GridMade::Coarse{index, {}, static_cast<float>(d)});
-        if (less.tape.size() <= kLongTape || d > 1.5 * grid.radius()) {
+        if (less.tape.size() <= kLongTape || std::fabs(d) > grid.radius()) {
             cell.cell = cellOf(less, d, grid.radius());
             return;
         }
