@@ -86,9 +86,10 @@ GridWork Grid::follow(const Tree& tree) {
 /// Chooses the box and its cells: some a part, as cubic as they can be.
 void Grid::layOut() {
     box_ = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    boxes_.clear();
     double bounded = 0;
     for (const Tree::Part& part : tree_.parts) {
-        const Box box = bounds(tree_, tapeOf(tree_, part));
+        const Box box = boxes_.emplace_back(bounds(tree_, tapeOf(tree_, part)));
         if (!isFinite(box) || box.lo[0] > box.hi[0]) continue;
         bounded += std::sqrt(static_cast<double>(part.end - part.begin));  // a part of many primitives is cut finer
         for (std::size_t i = 0; i < 3; ++i) box_.lo[i] = std::min(box_.lo[i], box.lo[i]), box_.hi[i] = std::max(box_.hi[i], box.hi[i]);
@@ -121,7 +122,7 @@ void Grid::layOut() {
 
 GridWork Grid::rebuild() {
     GridBuilder builder{tree_, corner_, size_, dims_, exact_};
-    GridMade made = builder.build(nullptr);
+    GridMade made = builder.build(nullptr, partsOf(tree_));
     cells_.assign(static_cast<std::size_t>(dims_.x) * static_cast<std::size_t>(dims_.y) * static_cast<std::size_t>(dims_.z), {});
     at_centre_.assign(cells_.size(), 0);
     items_.clear(), tape_.clear(), changed_.clear();
@@ -192,9 +193,43 @@ GridWork Grid::update(const std::vector<std::uint32_t>& parts, const Tree& befor
                 ++work.evaluations;
             }
         }
-    GridMade made = builder.build(&dirty);
+    for (const std::uint32_t part : parts) boxes_[part] = bounds(tree_, tapeOf(tree_, tree_.parts[part]));
+    GridMade made = builder.build(&dirty, near(dirty, builder, work));
     place(made);
     return {false, made.cells.size(), made.evaluations + work.evaluations, 0};
+}
+
+/// The parts that can matter in the cells marked: those no further from the middle of them all than the nearest one, and
+/// twice the radius that holds the cells. A part whose value is its distance is at least as far as its box.
+PartList Grid::near(const std::vector<char>& dirty, const GridBuilder& builder, GridWork& io_work) const {
+    glm::dvec3 lo(INFINITY), hi(-INFINITY);
+    for (std::size_t i = 0; i < dirty.size(); ++i)
+        if (dirty[i]) lo = glm::min(lo, builder.centre(static_cast<std::uint32_t>(i))), hi = glm::max(hi, builder.centre(static_cast<std::uint32_t>(i)));
+    const glm::dvec3 middle = 0.5 * (lo + hi);
+    const double radius = 0.5 * glm::length(hi - lo) + 2 * builder.radius();
+    const auto isDistance = [&](const Tree::Part& part) {
+        const Instruction& step = tree_.program[part.begin];
+        return part.end - part.begin == 1 && tree_.leaves[step.index].primitive->exact;
+    };
+    std::vector<std::uint32_t> kept;
+    double least = kEmptyDistance;
+    for (const bool second : {false, true})  // first the box nearest to the middle, for a bound on what is nearest there
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            const double away = isDistance(tree_.parts[i]) ? distanceTo(boxes_[i], middle) : 0;
+            if (second && away <= least + 2 * radius) kept.push_back(static_cast<std::uint32_t>(i));
+            if (second || away >= least) continue;
+            least = std::min(least, mb::distance<double>(tree_, tapeOf(tree_, tree_.parts[i]), {middle.x, middle.y, middle.z}));
+            ++io_work.evaluations;
+        }
+
+    PartList list;
+    for (const std::uint32_t i : kept) {
+        const auto begin = static_cast<std::uint32_t>(list.tape.size());
+        const std::span<const Instruction> tape = tapeOf(tree_, tree_.parts[i]);
+        list.tape.insert(list.tape.end(), tape.begin(), tape.end());
+        list.parts.push_back({begin, static_cast<std::uint32_t>(list.tape.size())});
+    }
+    return list;
 }
 
 Grid::Place Grid::find(glm::dvec3 p) const {

@@ -52,6 +52,8 @@ inline constexpr int kBrick = 4; // cells along a brick's side
 double distanceTo(const Box& box, glm::dvec3 p);
 
 struct GridMade;
+struct PartList;
+class GridBuilder;
 class Grid {
 public:
     /// For marching, the exact distance is kept where a surface is near, and a bound elsewhere; or it is kept everywhere.
@@ -89,6 +91,7 @@ private:
     void layOut();
     GridWork rebuild();
     void place(GridMade& made);
+    PartList near(const std::vector<char>& dirty, const GridBuilder& builder, GridWork& io_work) const;
     GridWork update(const std::vector<std::uint32_t>& parts, const Tree& before);
     Place find(glm::dvec3 p) const;
 
@@ -99,6 +102,7 @@ private:
     double size_ = 1;
     glm::ivec3 dims_{0};
     std::vector<GridCell> cells_;
+    std::vector<Box> boxes_;                              // of each part
     std::vector<float> at_centre_;                        // the distance there, of each coarse cell
     std::vector<GridItem> items_;
     Tape tape_;

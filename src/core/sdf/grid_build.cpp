@@ -117,11 +117,11 @@ std::vector<GridBuilder::Range> GridBuilder::halves(const Range& range) const {
     return all;
 }
 
-GridMade GridBuilder::build(const std::vector<char>* dirty) const {
+GridMade GridBuilder::build(const std::vector<char>* dirty, PartList parts) const {
     GridMade all;
     if (dims_.x == 0) return all;
     // The largest ranges first, until there are enough for every thread.
-    std::vector<Task> tasks{{{{0, 0, 0}, dims_}, partsOf(tree_)}};
+    std::vector<Task> tasks{{{{0, 0, 0}, dims_}, std::move(parts)}};
     Work first{*this, dirty};
     for (std::size_t next = 0; next < tasks.size() && tasks.size() < kTasks;) {
         if (tasks[next].range.single() || !touches(tasks[next].range, dirty)) {

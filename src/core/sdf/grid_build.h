@@ -25,7 +25,8 @@ public:
     GridBuilder(const Tree& tree, glm::dvec3 corner, double size, glm::ivec3 dims, Grid::Exact exact)
         : tree_(tree), corner_(corner), size_(size), dims_(dims), exact_(exact == Grid::Exact::everywhere) {}
     /// The coarse cells marked in `dirty`, or all where there is none, in the order of the recursion.
-    GridMade build(const std::vector<char>* dirty) const;
+    /// `parts` are all of the tree's, or at least those that can matter in these cells.
+    GridMade build(const std::vector<char>* dirty, PartList parts) const;
     glm::dvec3 centre(std::uint32_t coarse) const;
     /// How far a cell's list holds around its centre: to its corners, and a little over, since the GPU rounds.
     double radius(double share = 1) const;
