@@ -113,6 +113,19 @@ TEST_CASE("case 7: a floor that stays at the origin is the same floor a kilometr
     }
 }
 
+TEST_CASE("case 7: a floor that stays at the origin is the same floor a thousand kilometres on") {
+    HeadlessRenderer headless;
+    Scene s;
+    addObject(s, "plane", {0, 1, 0, 0});
+    for (const double x : {1e4, 1e5, 1e6}) {
+        const Camera camera = cameraAt({x, 1.7, 6}, {x, 0.8, 0});
+        const Compared c = compare(headless.measure(s, camera, {160, 120}), camera,
+                                   [](const DoubleRay& r) { return firstOf(halfSpaceSpan(r, {0, 1, 0}, 0), 200); });
+        MESSAGE(x << " m away: " << c.hits << " hits, " << c.lost << " lost, worst depth " << c.worst_depth);
+        CHECK(c.worst_depth < 1e-3);
+    }
+}
+
 TEST_CASE("case 13: what is thinner than a pixel covers, over 64 samples, what it covers") {
     HeadlessRenderer headless;
     constexpr double kTolerance = 0.2;  // of what it covers

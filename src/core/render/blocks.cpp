@@ -2,6 +2,7 @@
 
 #include "core/scene/camera.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <bit>
@@ -21,6 +22,16 @@ GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, cons
     return {with(position, w), glm::vec4(k[0], k[1], k[2], k[3]), with(rotation[0], object), with(rotation[1], static_cast<double>(row)), with(rotation[2], 0)};
 }
 
+/// A leaf without bounds, its origin moved near `eye`: what is computed from the way to an origin far away is lost to
+/// rounding. The move is by even whole metres of its own frame, so that its checkerboard stays where it is.
+Leaf nearEye(Leaf leaf, glm::dvec3 eye) {
+    if (!leaf.primitive->moveOrigin || leaf.warps > 0) return leaf;
+    const glm::dvec3 by = 2.0 * glm::round(0.5 * ((eye - leaf.position) * leaf.rotation));
+    leaf.primitive->moveOrigin(leaf.numbers, {by.x, by.y, by.z});
+    leaf.position += leaf.rotation * by;
+    return leaf;
+}
+
 /// The largest number the leaf's distance may be computed from: of a bounded one its size, of an unbounded one how far its
 /// own origin lies from the eye; behind a warp, where it lies there.
 double reachOf(const Leaf& leaf, glm::dvec3 position) {
@@ -38,7 +49,8 @@ double reachOf(const Leaf& leaf, glm::dvec3 position) {
 Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
     Packed packed;
     std::map<int, int> numbers;  // of the materials some leaf shows, in the order of their first use
-    for (const Leaf& leaf : tree.leaves) {
+    for (const Leaf& placed : tree.leaves) {
+        const Leaf leaf = nearEye(placed, origin);
         const auto [number, is_new] = numbers.try_emplace(leaf.material, static_cast<int>(numbers.size()));
         if (is_new) packed.materials.push_back(packMaterial(materialOf(scene, leaf.material)));
         const glm::dvec3 position = leaf.warps > 0 ? leaf.position : leaf.position - origin;

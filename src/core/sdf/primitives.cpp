@@ -57,6 +57,8 @@ Box planeExtent(const LeafNumbers& k) {
     }
     return box;
 }
+/// n·(p + v) <= offset is n·p <= offset − n·v.
+void movePlane(LeafNumbers& k, const std::array<double, 3>& v) { k[3] -= k[0] * v[0] + k[1] * v[1] + k[2] * v[2]; }
 void cookPrism(LeafNumbers& k) { k[3] = k[1] * std::cos(kPi / k[0]); }
 Box prismExtent(const LeafNumbers& k) {
     Box box = around(0, 0.5 * k[2], 0);
@@ -101,6 +103,12 @@ constexpr Primitive row(const About& about, const Parameter (&parameters)[N], F 
 }
 #define MB_FUNCTION(name) [](auto s) { return &decltype(s)::name; }
 
+/// The row of a shape without bounds.
+constexpr Primitive boundless(void (*move_origin)(LeafNumbers&, const std::array<double, 3>&), Primitive p) {
+    p.moveOrigin = move_origin;
+    return p;
+}
+
 /// The row with its span: where a ray may be inside it.
 template <class F> constexpr Primitive spanned(std::string_view span, F f, Primitive p) {
     int declared = p.derived.empty() ? 0 : 1;
@@ -118,7 +126,7 @@ constexpr Primitive kPrimitives[] = {
         [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })),
     spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
         [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); })),
-    spanned(MB_SPAN(spanPlane), row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent)),
+    spanned(MB_SPAN(spanPlane), boundless(movePlane, row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent))),
     spanned(MB_SPAN(spanTorus), row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
         [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); })),
     spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),

@@ -50,6 +50,7 @@ struct Primitive : ShapeType {
     bool turns = true;                         // a rotation changes it; false for the ball alone
     void (*cook)(LeafNumbers&) = nullptr;      // makes the numbers the GLSL takes from the scaled ones of the file
     Box (*extent)(const LeafNumbers&) = nullptr;  // the tightest box around it, from cooked numbers
+    void (*moveOrigin)(LeafNumbers&, const std::array<double, 3>& by) = nullptr;  // of one without bounds: the same shape seen from another origin
     double (*rises)(const LeafNumbers&) = nullptr;  // of a bound: at least how much a metre away from the shape adds to it
     float (*f32)(sdf::Vec3<float>, const double*) = nullptr;
     double (*f64)(sdf::Vec3<double>, const double*) = nullptr;
