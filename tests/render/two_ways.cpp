@@ -59,8 +59,8 @@ Differences compare(const Channels& a, const Channels& b, double epsilon) {
 
 /// Rays that graze: one way's pieces of emptiness overlap there and the other's do not.
 constexpr double kGrazing = 0.0005;
-/// m: 2 ulps of values below 4, as seen where space is warped, and where balls are turned, which straight-line code does not
-/// turn (Primitive::turns) and the grid does. Elsewhere the two ways are equal to the bit.
+/// m: 2 ulps of values below 4, as seen where space is warped, and in a scene with turned balls, probably because the grid
+/// turns those and straight-line code does not (Primitive::turns). Elsewhere the two ways are equal to the bit.
 constexpr double kRounding = 2 * 0x1p-22;
 
 }  // namespace

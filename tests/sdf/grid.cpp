@@ -270,7 +270,7 @@ TEST_CASE("a grid of nothing, of planes, of one, of many in one place and of one
     all[1].first = "planes", addObject(all[1].second, "plane", {0, 1, 0, 0}), addObject(all[1].second, "plane", {1, 1, 0, -1});
     all[2].first = "one", addObject(all[2].second, "torus", {0.7, 0.2});
     all[3].first = "2,000 in one place";
-    for (int i = 0; i < 200; ++i) addObject(all[3].second, "sphere", {0.5});
+    for (int i = 0; i < 2000; ++i) addObject(all[3].second, "sphere", {0.5});
     all[4].first = "one far away", all[4].second = heaps(draw, 50), addObject(all[4].second, "sphere", {0.5}, {1e6, 0, 0});
     for (const auto& [name, scene] : all)
         for (const Grid::Exact exact : {Grid::Exact::near_surfaces, Grid::Exact::everywhere}) {

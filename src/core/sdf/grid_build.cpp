@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFar = 2;              // radii: a cell further than this from everything keeps a number, no list
 constexpr std::size_t kLongTape = 3;    // instructions: a longer one, near a surface, is cut into a brick
+constexpr std::size_t kVeryLongTape = 64;
 constexpr std::size_t kTasks = 64;
 
 /// What float may lose of a distance.
@@ -45,7 +46,7 @@ struct GridBuilder::Work {
         PartList& less = kept.back();
         const double d = pruner.prune(parts, c, grid.radius(), less);
         GridMade::Coarse& cell = made.cells.emplace_back(GridMade::Coarse{index, {}, static_cast<float>(d)});
-        if (less.tape.size() <= kLongTape || std::fabs(d) > grid.radius()) {
+        if (less.tape.size() <= kLongTape || std::fabs(d) > grid.radius() || !shortens(c, less)) {
             cell.cell = cellOf(less, d, grid.radius());
             return;
         }
@@ -59,6 +60,13 @@ struct GridBuilder::Work {
                     const double at_k = pruner.prune(less, k, radius, inner);
                     made.bricks.push_back(cellOf(inner, at_k, radius));
                 }
+    }
+
+    /// Whether a brick's cells would have shorter tapes, asked for a very long one only: what lies in one place stays together.
+    bool shortens(glm::dvec3 c, const PartList& list) {
+        if (list.tape.size() < kVeryLongTape) return true;
+        pruner.prune(list, c + 0.5 * grid.size_ / kBrick, grid.radius(1.0 / kBrick), inner);
+        return 4 * inner.tape.size() < 3 * list.tape.size();
     }
 
     GridCell cellOf(const PartList& list, double d, double radius) {
