@@ -1,7 +1,7 @@
 #!/bin/sh
 # Prints saves/pebbles.txt: 400 different pebbles on a patch whose opposite edges meet, to be repeated 5 by 5.
 #   tools/pebbles.sh > saves/pebbles.txt
-# The largest are laid first, each where it touches no other; its own generator makes the same file under every awk.
+# The largest are laid first, each where it overlaps no other by more than a little. The generator of the numbers is its own.
 exec awk '
 function uniform() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
 function apart(a, b) { a = a > b ? a - b : b - a; return a > side / 2 ? side - a : a }
