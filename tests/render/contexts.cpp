@@ -140,3 +140,18 @@ TEST_CASE("pictures of odd sizes are the crops and rows they should be") {
         for (const glm::vec3& c : picture) REQUIRE((std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)));
     }
 }
+
+TEST_CASE("two renderers of one context draw each its own scene") {
+    HeadlessRenderer headless;
+    Renderer second;
+    const Camera camera = cameraAt({0, 2, 5}, {0, 0.5, 0});
+    const auto first = headless.draw(testScene(), camera, {40, 30});
+    Scene other;
+    addObject(other, "sphere", {1});
+    CHECK(second.draw(other, camera, {40, 30}) == "");
+    const auto ball = second.readPicture();
+    CHECK(headless.draw(testScene(), camera, {40, 30}) == first);
+    CHECK(second.draw(other, camera, {40, 30}) == "");
+    CHECK(second.readPicture() == ball);
+    CHECK(ball != first);
+}

@@ -35,7 +35,6 @@ Renderer::Renderer() {
         GLuint name = 0;
         glGenBuffers(1, &name);
         blocks_.emplace_back(name);
-        glBindBufferBase(GL_UNIFORM_BUFFER, point, name);
     }
 }
 
@@ -206,6 +205,9 @@ const Program* Renderer::program(Variant variant, const Tree& tree, const Ready&
 }
 
 std::string Renderer::upload(const Ready& ready) {
+    // Of several renderers in one context, the one that draws has its own blocks bound.
+    for (GLuint point = 0; point < static_cast<GLuint>(BlockPoint::count); ++point)
+        glBindBufferBase(GL_UNIFORM_BUFFER, point, blocks_[point]);
     const Packed& packed = ready.packed;
     const auto fill = [&](BlockPoint point, const auto& records, std::size_t room, const char* what) -> std::string {
         using Record = typename std::decay_t<decltype(records)>::value_type;
