@@ -98,30 +98,17 @@ TEST_CASE("case 7: a scene far from the origin is the same picture") {
     }
 }
 
-TEST_CASE("case 7: a floor that stays at the origin is the same floor a kilometre on") {
+TEST_CASE("case 7: a floor that stays at the origin is the same floor a thousand kilometres on") {
     HeadlessRenderer headless;
     Scene s;
     addObject(s, "plane", {0, 1, 0, 0});
-    for (const double x : {0.0, 1e2, 1e3}) {
+    for (const double x : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const Camera camera = cameraAt({x, 1.7, 6}, {x, 0.8, 0});
         const Compared c = compare(headless.measure(s, camera, {160, 120}), camera,
                                    [](const DoubleRay& r) { return firstOf(halfSpaceSpan(r, {0, 1, 0}, 0), 200); });
         MESSAGE(x << " m away: " << c.hits << " hits, " << c.lost << " lost, worst depth " << c.worst_depth);
         CHECK(c.false_hits + c.false_misses == 0);
         CHECK(c.lost <= c.pixels / 200);
-        CHECK(c.worst_depth < 1e-3);
-    }
-}
-
-TEST_CASE("case 7: a floor that stays at the origin is the same floor a thousand kilometres on") {
-    HeadlessRenderer headless;
-    Scene s;
-    addObject(s, "plane", {0, 1, 0, 0});
-    for (const double x : {1e4, 1e5, 1e6}) {
-        const Camera camera = cameraAt({x, 1.7, 6}, {x, 0.8, 0});
-        const Compared c = compare(headless.measure(s, camera, {160, 120}), camera,
-                                   [](const DoubleRay& r) { return firstOf(halfSpaceSpan(r, {0, 1, 0}, 0), 200); });
-        MESSAGE(x << " m away: " << c.hits << " hits, " << c.lost << " lost, worst depth " << c.worst_depth);
         CHECK(c.worst_depth < 1e-3);
     }
 }
