@@ -38,11 +38,11 @@ struct Frame {
 
 layout(std140) uniform FrameBlock { Frame frame; };
 #ifdef GRID
-// Records of thousands of objects: vec4s of one texture, the leaves, the operators, then the materials.
-uniform sampler2D records;
+// Records of thousands of objects: vec4s of one buffer texture, the leaves, the operators, then the materials.
+uniform samplerBuffer records;
 const int NODE_TEXELS = 5;
 const int MATERIAL_TEXELS = 3;
-vec4 recordTexel(int i) { return texelFetch(records, ivec2(i & 2047, i >> 11), 0); }
+vec4 recordTexel(int i) { return texelFetch(records, i); }
 Node recordAt(int record) {
     int i = record * NODE_TEXELS;
     return Node(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2), recordTexel(i + 3), recordTexel(i + 4));

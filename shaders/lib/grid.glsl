@@ -1,14 +1,11 @@
-// The grid of src/core/sdf/grid.h: the cell a point lies in, and the records its items name. In textures, since a scene of
-// thousands outgrows a uniform block; a linear index i is at (i % ROW, i / ROW).
+// The grid of src/core/sdf/grid.h: the cell a point lies in, and the records its items name. In buffer textures, since
+// a scene of thousands outgrows a uniform block.
 
-uniform usampler2D grid_cells;  // x: the first item, or a brick's first cell; y: the distance at an empty cell's centre, or 0
-uniform usampler2D grid_items;  // x: code, how it is joined, whether it is the last, record; y: the record of what joins it
-const int ROW_BITS = 11;
+uniform usamplerBuffer grid_cells;  // x: the first item, or a brick's first cell; y: the distance at an empty cell's centre, or 0
+uniform usamplerBuffer grid_items;  // x: code, how it is joined, whether it is the last, record; y: the record of what joins it
 const uint NO_ITEMS = 0xFFFFFFFFu;
 const uint BRICK_CELL = 0xFFFFFFFFu;
 const int BRICK = 4;            // cells along its side
-
-ivec2 texelPlace(int i) { return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS); }
 
 struct Cell {
     int first;        // its first item; -1: it has none
@@ -24,14 +21,14 @@ Cell cellAt(vec3 p) {
     vec3 at = (p - frame.grid_corner.xyz) / frame.grid_corner.w;
     ivec3 i = ivec3(floor(at));
     ivec3 inside = clamp(i, ivec3(0), max(frame.grid_size.xyz - 1, 0));
-    uvec2 cell = texelFetch(grid_cells, texelPlace((inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x), 0).xy;
+    uvec2 cell = texelFetch(grid_cells, (inside.z * frame.grid_size.y + inside.y) * frame.grid_size.x + inside.x).xy;
     vec3 middle = vec3(i) + 0.5;
     float half_side = 0.5;
     if (cell.y == BRICK_CELL) {
         ivec3 k = clamp(ivec3((at - vec3(i)) * float(BRICK)), ivec3(0), ivec3(BRICK - 1));
         middle = vec3(i) + (vec3(k) + 0.5) / float(BRICK);
         half_side = 0.5 / float(BRICK);
-        cell = texelFetch(grid_cells, texelPlace(int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x), 0).xy;
+        cell = texelFetch(grid_cells, int(cell.x) + (k.z * BRICK + k.y) * BRICK + k.x).xy;
     }
 
     // Beyond the grid are the parts without bounds; all else is as near as its box, at least.
@@ -82,6 +79,6 @@ struct Item {
     bool last;
 };
 Item itemAt(int i) {
-    uvec2 item = texelFetch(grid_items, texelPlace(i), 0).xy;
+    uvec2 item = texelFetch(grid_items, i).xy;
     return Item(int(item.x & 63u), int((item.x >> 6) & 15u), int(item.x >> 12), int(item.y), (item.x & 2048u) != 0u);
 }

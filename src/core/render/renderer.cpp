@@ -174,13 +174,13 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     if (ready.grid) {
         grid_work_ = grid.grid.follow(tree);
         placeGrid(grid.grid, origin, ready.frame);
-        if (ready.why = grid.textures.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
+        if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
     ready.program = program(variant, tree, ready, ready.why);
     if (!ready.why.empty()) return ready;
     glUseProgram(ready.program->name);
-    if (ready.grid) grid.textures.bind(*ready.program);
+    if (ready.grid) grid.buffers.bind(*ready.program);
     return ready;
 }
 

@@ -3,7 +3,7 @@
 // its life.
 #include "core/effects/plan.h"
 #include "core/render/blocks.h"
-#include "core/render/grid_textures.h"
+#include "core/render/grid_buffers.h"
 #include "core/render/program.h"
 #include "core/render/targets.h"
 
@@ -105,7 +105,7 @@ private:
     Evaluation evaluation_ = Evaluation::automatic;
     struct GridOnGpu {
         Grid grid;
-        GridTextures textures;
+        GridBuffers buffers;
     };
     GridOnGpu marched_{Grid(), {}}, exact_{Grid(Grid::Exact::everywhere), {}};  // for pictures; for evaluate()
     GridWork grid_work_;

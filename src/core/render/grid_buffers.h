@@ -1,12 +1,12 @@
 #pragma once
-// A grid and the records its items name, as the textures that shaders/lib/grid.glsl reads.
+// A grid and the records its items name, as the buffer textures that shaders/lib/grid.glsl reads.
 #include "core/render/blocks.h"
 #include "core/render/program.h"
 #include "core/sdf/grid.h"
 
 namespace mb {
 
-class GridTextures {
+class GridBuffers {
 public:
     /// Uploads what has changed since the last call, and the records, which change with the eye. Returns why it cannot.
     std::string upload(Grid& grid, const Packed& packed);
@@ -14,17 +14,18 @@ public:
     void bind(const Program& program) const;
 
 private:
-    /// A texture of rows of 2,048 texels, as high as it needs to be.
-    struct Rows {
+    /// A buffer that grows, and the texture through which a shader reads it.
+    struct Store {
+        OwnedBuffer buffer;
         OwnedTexture texture;
-        int rows = 0;
+        std::size_t room = 0;  // bytes
     };
-    void write(Rows& rows, const std::vector<std::uint32_t>& words, std::size_t first_row, std::size_t last_row);
+    bool reserve(Store& store, std::size_t bytes, GLenum texel);
+    void writeCells(Grid& grid, bool whole);
 
-    Rows cells_, items_, records_;
+    Store cells_, items_, records_;
     std::uint64_t generation_ = 0;
     std::size_t items_sent_ = 0;
-    std::vector<std::uint32_t> cell_words_, item_words_;
 };
 
 /// The frame's members that say where the grid lies, relative to `origin`.

@@ -1,0 +1,112 @@
+#include "core/render/grid_buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace mb {
+namespace {
+
+constexpr std::uint32_t kNoItems = 0xFFFFFFFFu, kBrickCell = 0xFFFFFFFFu;
+constexpr std::size_t kGap = 2048;  // unchanged cells that are sent again rather than begin a new piece
+
+/// A cell as the shader reads it: two 32-bit numbers.
+struct GpuCell {
+    std::uint32_t first, safe;
+};
+GpuCell packed(const GridCell& cell) {
+    return {cell.kind == GridCell::Kind::far ? kNoItems : cell.first,
+            cell.kind == GridCell::Kind::brick ? kBrickCell : std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f)};
+}
+
+template <class T> GLsizeiptr bytesOf(std::size_t n) { return static_cast<GLsizeiptr>(n * sizeof(T)); }
+
+}  // namespace
+
+/// Makes the buffer at least that large, with room to grow. Returns whether what it held is gone.
+bool GridBuffers::reserve(Store& store, std::size_t bytes, GLenum texel) {
+    GLuint name = 0;
+    if (!store.buffer) {
+        glGenBuffers(1, &name), store.buffer = OwnedBuffer(name);
+        gl.GenTextures(1, &name), store.texture = OwnedTexture(name);
+    }
+    glBindBuffer(GL_TEXTURE_BUFFER, store.buffer);
+    if (store.room >= bytes && store.room > 0) return false;
+    store.room = std::max<std::size_t>(bytes + bytes / 2, 4096);
+    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(store.room), nullptr, GL_DYNAMIC_DRAW);
+    gl.BindTexture(GL_TEXTURE_BUFFER, store.texture);
+    glTexBuffer(GL_TEXTURE_BUFFER, texel, store.buffer);
+    return true;
+}
+
+/// All cells, or the pieces in which some have changed.
+void GridBuffers::writeCells(Grid& grid, bool whole) {
+    std::vector<std::uint32_t> changed = grid.takeChangedCells();
+    const std::span<const GridCell> cells = grid.cells();
+    whole = reserve(cells_, cells.size() * sizeof(GpuCell), GL_RG32UI) || whole;
+    std::vector<GpuCell> piece;
+    const auto send = [&](std::size_t begin, std::size_t end) {
+        piece.clear();
+        for (std::size_t i = begin; i < end; ++i) piece.push_back(packed(cells[i]));
+        glBufferSubData(GL_TEXTURE_BUFFER, bytesOf<GpuCell>(begin), bytesOf<GpuCell>(piece.size()), piece.data());
+    };
+    if (whole) return send(0, cells.size());
+    std::ranges::sort(changed);
+    for (std::size_t i = 0, next = 0; i < changed.size(); i = next) {
+        for (next = i + 1; next < changed.size() && changed[next] - changed[next - 1] < kGap;) ++next;
+        send(changed[i], changed[next - 1] + 1);
+    }
+}
+
+std::string GridBuffers::upload(Grid& grid, const Packed& packed) {
+    const std::size_t records = packed.leaves.size() * sizeof(GpuNode) + packed.branches.size() * sizeof(GpuNode) + packed.materials.size() * sizeof(GpuMaterial);
+    GLint most = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (std::max({grid.cells().size(), grid.items().size(), records / sizeof(glm::vec4)}) > static_cast<std::size_t>(most))
+        return fmt::format("the scene needs {} cells, {} items and {} numbers; this driver's buffer textures hold {}", grid.cells().size(),
+                           grid.items().size(), records / sizeof(float), most);
+
+    const bool whole = generation_ != grid.generation();
+    generation_ = grid.generation();
+    writeCells(grid, whole);
+
+    // The items: those that came since.
+    const std::span<const GridItem> items = grid.items();
+    if (reserve(items_, items.size_bytes(), GL_RG32UI) || whole) items_sent_ = 0;
+    if (items_sent_ < items.size())
+        glBufferSubData(GL_TEXTURE_BUFFER, bytesOf<GridItem>(items_sent_), bytesOf<GridItem>(items.size() - items_sent_), items.data() + items_sent_);
+    items_sent_ = items.size();
+
+    reserve(records_, records, GL_RGBA32F);
+    GLintptr at = 0;
+    const auto put = [&at](const auto& source) {
+        const auto bytes = bytesOf<typename std::decay_t<decltype(source)>::value_type>(source.size());
+        if (bytes > 0) glBufferSubData(GL_TEXTURE_BUFFER, at, bytes, source.data());
+        at += bytes;
+    };
+    put(packed.leaves), put(packed.branches), put(packed.materials);
+    return {};
+}
+
+void GridBuffers::bind(const Program& program) const {
+    const std::pair<const char*, const Store*> kSamplers[] = {{"grid_cells", &cells_}, {"grid_items", &items_}, {"records", &records_}};
+    GLenum unit = 1;  // 0 is for what a pass reads of its own
+    for (const auto& [name, store] : kSamplers) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        gl.BindTexture(GL_TEXTURE_BUFFER, store->texture);
+        glUniform1i(program.uniform(name), static_cast<GLint>(unit++));
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+void placeGrid(const Grid& grid, glm::dvec3 origin, GpuFrame& frame) {
+    const auto relative = [&](const std::array<double, 3>& p) { return glm::vec4(glm::vec3(glm::dvec3(p[0], p[1], p[2]) - origin), 0); };
+    const bool any = grid.dims().x > 0 && grid.exact() == Grid::Exact::near_surfaces;
+    frame.grid_corner = glm::vec4(glm::vec3(grid.corner() - origin), static_cast<float>(grid.cellSize()));
+    frame.box_lo = any ? relative(grid.box().lo) : glm::vec4(static_cast<float>(kEmptyDistance));
+    frame.box_hi = any ? relative(grid.box().hi) : glm::vec4(static_cast<float>(kEmptyDistance));
+    frame.grid_size = {grid.dims(), static_cast<int>(grid.outer().count)};
+}
+
+}  // namespace mb
