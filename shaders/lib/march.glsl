@@ -48,135 +48,165 @@ struct Along {
     float f_before;
     float reach;
     float slope;     // of the distance, remembered from step to step
+    float noise;     // at t, or where the last skip began
+    float care;      // of closeAt(): how short a step may become
     bool proved;     // all of [0, before] lies in emptiness, but for what `doubtful` says
     bool doubtful;   // a gap since the surface that is now near: if that is hit, nothing was missed but it
     bool touched;    // came within the noise of a surface
     bool on_surface; // started there
+    bool bracketed;  // the sign has changed: only that is looked into
+    Bracket bracket;
+    bool ended;
+    bool decided;    // what it ended as is proved
     int steps;
 };
+Along setOut(float entry, float care) {
+    return Along(entry, 0.0, 0.0, entry, -1.0, 0.0, care, true, false, false, false, false, Bracket(0.0, 0.0, 0.0, 0.0, 0), false, false, 0);
+}
+float closeTo(Ray ray, Along a, float t) { return a.care * closeAt(ray.travelled + t); }
+
+// A long step must land in a sphere that meets the last one: else the ray goes back and steps as far as is safe, unless that
+// is hardly a step. (No function here returns before its end: llvmpipe would mask all that follows.)
+#ifdef RELAXED
+bool mustGoBack(Ray ray, Along a, bool gap) { return gap && a.f_before >= closeTo(ray, a, a.before); }
+#else
+bool mustGoBack(Ray ray, Along a, bool gap) { return false; }
+#endif
+void goBack(inout Along a) {
+    a.t = a.before + a.reach;
+    a.slope = -1.0;
+}
+
+#ifdef GRID
+// Skip: what no surface crosses is passed without asking. Returns whether the field is to be asked where that leads.
+bool skip(Ray ray, float far, bool skips, inout Along a, out Cell cell) {
+    float back;
+    float landed = skipEmpty(ray.origin, ray.direction, a.t, far, skips, cell, back);
+    bool asks = true;
+    if (landed > a.t) {
+        bool gap = a.t - a.before > a.reach + back + a.noise;
+        asks = !mustGoBack(ray, a, gap);
+        if (asks) {
+            if (a.doubtful || gap) a.proved = false;
+            a.t = landed;
+            a.reach = landed - a.before;
+            a.ended = landed >= far;
+            a.decided = a.ended && a.proved && !a.touched;
+        } else {
+            goBack(a);
+        }
+    }
+    return asks;
+}
+#endif
+
+// Narrow: the point just asked takes the place of one end of the bracket.
+void narrow(inout Along a, inout March march, float f, int leaf) {
+    a.bracket = narrowed(a.bracket, a.t, f);
+    march.t = a.t;
+    march.leaf = leaf;
+    a.ended = abs(f) <= a.noise || a.bracket.narrowed >= NARROWING_STEPS;
+    if (!a.ended) a.t = within(a.bracket);
+}
+
+// The sign has changed: a hit, if nothing was passed unseen; what is only asked for its being there is not narrowed.
+void openBracket(inout Along a, inout March march, float f, int leaf, bool narrows, bool may_retry) {
+    march.leaf = leaf;
+    march.t = a.t;
+    march.closest = 0.0;
+    a.decided = a.proved || !narrows;  // whatever was passed unseen, a solid in a light's way is a shadow
+    march.state = a.decided ? HIT : UNDECIDED;
+    a.ended = !narrows || (!a.decided && may_retry);
+    a.bracketed = !a.ended;
+
+    // What is proved beyond the last point ends 2 noise before where the sign may change.
+    bool ahead = a.reach > a.f_before;
+    float lo = ahead ? a.before + a.reach : a.before;
+    a.bracket = Bracket(lo, a.t, ahead ? 2.0 * a.noise * -f / max(a.t - lo, 3.0 * a.noise) : a.f_before, f, 0);
+    a.t = within(a.bracket);
+}
+
+// Step: the point is accepted, and the next lies as far on as all is known to be empty. `found` is what mapAhead() said.
+void advance(Ray ray, float far, inout Along a, inout March march, float f, vec3 found, int leaf) {
+    // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
+    bool left_surface = a.steps == 1 && a.on_surface;
+    float close = closeTo(ray, a, a.t);
+    if (a.steps > 0 && !left_surface && a.reach + f < a.t - a.before + a.noise) a.doubtful = true;
+    if (a.doubtful && f >= close) a.proved = false;
+    a.touched = a.touched || (f <= a.noise && a.steps > 0);
+    if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
+    a.before = a.t;
+    a.f_before = max(f, 0.0);
+    a.reach = max(a.f_before, march.side * found.y - 2.0 * a.noise);
+    a.ended = a.t + a.reach >= far;
+    a.decided = a.ended && a.proved && !a.doubtful && !a.touched;
+
+    float ahead = max(a.reach > f ? a.reach + found.z * closeTo(ray, a, a.t + a.reach) : f, close);
+#ifdef RELAXED
+    if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * a.noise);
+#endif
+    a.t = min(a.t + ahead, far);
+    ++a.steps;
+}
+
+// What becomes of the ray by the field's value at a.t.
+void take(Ray ray, float far, inout Along a, inout March march, vec3 found, int leaf, bool narrows, bool may_retry) {
+    float f = march.side * found.x;
+    // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
+    if (f < 0.0 && (a.steps == 0 || (a.steps == 1 && a.on_surface))) {
+        march.side = -march.side;
+        f = -f;
+    }
+    if (a.steps == 0) a.on_surface = f <= a.noise;
+
+    float step = a.t - a.before;
+    if (a.bracketed) {
+        narrow(a, march, f, leaf);
+    } else if (mustGoBack(ray, a, step > a.reach + a.noise && step > a.reach + abs(f) - a.noise)) {
+        goBack(a);
+    } else {
+#ifdef RELAXED
+        if (step > 0.0) a.slope = mix((f - a.f_before) / step, a.slope, SLOPE_MEMORY);
+#endif
+        if (f < -a.noise) openBracket(a, march, f, leaf, narrows, may_retry);
+        else advance(ray, far, a, march, f, found, leaf);
+    }
+}
 
 March marchWith(Ray ray, float far, int budget, bool narrows) {
     March march = March(UNDECIDED, 0.0, INFINITY, 1.0, 0, -1);
     float entry = min(enterScene(ray.origin, ray.direction), far);
-    Along fresh = Along(entry, 0.0, 0.0, entry, -1.0, true, false, false, false, 0);
-    Along a = fresh;
-    bool decided = false;
+    Along a = setOut(entry, 1.0);
 
     // A ray that ends undecided starts once more, with shorter steps near surfaces and more of them.
     for (int attempt = 0; attempt < 2; ++attempt) {
-        float care = attempt == 0 ? 1.0 : CARE;  // of closeAt()
         int limit = attempt == 0 ? budget : min(RETRY * budget, spare_steps);
         spare_steps -= attempt * limit;
-        a = fresh;
+        a = setOut(entry, attempt == 0 ? 1.0 : CARE);
         march.closest = INFINITY;
         march.side = 1.0;
-        bool bracketed = false, ended = false;
-        Bracket bracket;
 
         for (int i = 0; i < STEP_CAP; ++i) {
-            ended = i >= limit;
-            if (ended) break;
-            float noise = noiseAt(ray.travelled + a.t);
+            a.ended = i >= limit;
+            if (a.ended) break;
+            a.noise = noiseAt(ray.travelled + a.t);
             int leaf;
 #ifdef GRID
-            // What no surface crosses is passed without asking.
             Cell cell;
-            float back;
-            float landed = skipEmpty(ray.origin, ray.direction, a.t, far, !bracketed && march.side > 0.0, cell, back);
-            if (landed > a.t) {
-                bool gap = a.t - a.before > a.reach + back + noise;
-#ifdef RELAXED
-                if (gap && a.f_before >= care * closeAt(ray.travelled + a.before)) {
-                    a.t = a.before + a.reach;
-                    a.slope = -1.0;
-                    continue;
-                }
-#endif
-                if (a.doubtful || gap) a.proved = false;
-                a.t = landed;
-                a.reach = landed - a.before;
-                if (landed >= far) {
-                    decided = a.proved && !a.touched;
-                    ended = true;
-                    break;
-                }
-            }
+            if (!skip(ray, far, !a.bracketed && march.side > 0.0, a, cell)) continue;
+            if (a.ended) break;
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
 #else
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);
 #endif
-            float f = march.side * found.x;
             ++march.evaluations;
-            // An eye in a solid sees its inside; of an eye on a surface, the next point says on which side its way leads.
-            if (f < 0.0 && (a.steps == 0 || (a.steps == 1 && a.on_surface))) {
-                march.side = -march.side;
-                f = -f;
-            }
-            if (a.steps == 0) a.on_surface = f <= noise;
-
-            if (bracketed) {
-                bracket = narrowed(bracket, a.t, f);
-                march.t = a.t;
-                march.leaf = leaf;
-                ended = abs(f) <= noise || bracket.narrowed >= NARROWING_STEPS;
-                if (ended) break;
-                a.t = within(bracket);
-                continue;
-            }
-
-            float step = a.t - a.before;
-#ifdef RELAXED
-            // A long step must land in a sphere that meets the last one: else go back and step as far as is safe.
-            if (step > a.reach + noise && step > a.reach + abs(f) - noise && a.f_before >= care * closeAt(ray.travelled + a.before)) {
-                a.t = a.before + a.reach;
-                a.slope = -1.0;
-                continue;
-            }
-            if (step > 0.0) a.slope = mix((f - a.f_before) / step, a.slope, SLOPE_MEMORY);
-#endif
-            if (f < -noise) {
-                march.leaf = leaf;
-                march.t = a.t;
-                march.closest = 0.0;
-                // Whatever was passed unseen, a solid in a light's way is a shadow.
-                decided = a.proved || !narrows;
-                march.state = decided ? HIT : UNDECIDED;
-                ended = !narrows || (!decided && attempt == 0 && spare_steps > 0);
-                if (ended) break;
-                // What is proved beyond the last point ends 2 noise before where the sign may change.
-                bracketed = true;
-                bool ahead = a.reach > a.f_before;
-                float lo = ahead ? a.before + a.reach : a.before;
-                bracket = Bracket(lo, a.t, ahead ? 2.0 * noise * -f / max(a.t - lo, 3.0 * noise) : a.f_before, f, 0);
-                a.t = within(bracket);
-                continue;
-            }
-            // The two pieces must overlap by more than rounding hides, or a sheet as thin as that lies between them unseen.
-            bool left_surface = a.steps == 1 && a.on_surface;
-            float close = care * closeAt(ray.travelled + a.t);
-            if (a.steps > 0 && !left_surface && a.reach + f < step + noise) a.doubtful = true;
-            if (a.doubtful && f >= close) a.proved = false;
-            a.touched = a.touched || (f <= noise && a.steps > 0);
-            if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
-            a.before = a.t;
-            a.f_before = max(f, 0.0);
-            a.reach = max(a.f_before, march.side * found.y - 2.0 * noise);
-            if (a.t + a.reach >= far) {
-                decided = a.proved && !a.doubtful && !a.touched;
-                ended = true;
-                break;
-            }
-            float ahead = max(a.reach > f ? a.reach + found.z * care * closeAt(ray.travelled + a.t + a.reach) : f, close);
-#ifdef RELAXED
-            if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * noise);
-#endif
-            a.t = min(a.t + ahead, far);
-            ++a.steps;
+            take(ray, far, a, march, found, leaf, narrows, attempt == 0 && spare_steps > 0);
+            if (a.ended) break;
         }
-        if (!ended) cut_short = true;
-        if (decided || cut_short || spare_steps <= 0) break;
+        if (!a.ended) cut_short = true;
+        if (a.decided || cut_short || spare_steps <= 0) break;
     }
-    if (decided && march.state != HIT) march.state = MISS;
+    if (a.decided && march.state != HIT) march.state = MISS;
     if (cut_short) march.state = UNDECIDED;
     return march;
 }
