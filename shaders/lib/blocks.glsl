@@ -30,7 +30,7 @@ struct Frame {
     vec4 background;  // w: 1 in the pass that counts as a sample, 0 in one that adds further lights to it
     ivec4 limits;     // march steps, shadow steps, reflections; 1 to show undecided pixels
     vec4 grid_corner; // of the grid's first cell, relative to the eye; w: a coarse cell's size
-    vec4 box_lo;      // of all that has bounds, relative to the eye
+    vec4 box_lo;      // of all that has bounds, relative to the eye; w: cells a metre
     vec4 box_hi;
     ivec4 grid_size;  // coarse cells; items of the list of what has no bounds
     ivec4 pass;       // the first light of this pass and the one after its last; 1 for the pass that adds the ambient light; leaves and operators in all
@@ -71,9 +71,6 @@ vec3 turnedTo(vec3 d, Node node) { return d; }
 vec3 turnedBack(vec3 d, Node node) { return d; }
 #endif
 vec3 local(vec3 p, Node node) { return turnedTo(p - node.position.xyz, node); }
-
-// How much of a ray is free before another span of it, which may be empty or behind.
-float freeBefore(float free, vec2 span) { return span.y < max(span.x, 0.0) ? free : min(free, max(span.x, 0.0)); }
 
 int marchSteps() { return frame.limits.x; }
 int shadowSteps() { return frame.limits.y; }

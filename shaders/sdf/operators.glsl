@@ -23,6 +23,37 @@ real shareIntersect(real a, real b, real blend) { return shareOf(b - a, blend); 
 real shareSubtract(real a, real b, real blend) { return shareOf(-b - a, blend); }
 real shareMorph(real a, real b, real t) { return t; }
 
+// Where a ray may be inside the whole, and where it is for certain, from its children's spans (primitives.glsl: outer and
+// inner ones) where nothing is blended. Of what would be two pieces the outer span is both and what lies between, the inner
+// one of them.
+vec2 spanOrNone(real begin, real end) {
+    return vec2(pick(end - begin, real(1e18f), begin), pick(end - begin, real(-1e18f), end));
+}
+vec2 firstOf(vec2 a, vec2 b) { return vec2(pick(a.y - a.x, b.x, a.x), pick(a.y - a.x, b.y, a.y)); }
+vec2 spanBoth(vec2 a, vec2 b) { return spanOrNone(max(a.x, b.x), min(a.y, b.y)); }
+vec2 spanEither(vec2 a, vec2 b) { return vec2(min(a.x, b.x), max(a.y, b.y)); }
+// The one that begins first, or both where they meet.
+vec2 joinedSpan(vec2 a, vec2 b) {
+    vec2 first = vec2(min(a.x, b.x), pick(b.x - a.x, b.y, a.y));
+    real meet = min(a.y, b.y) - max(a.x, b.x);
+    return vec2(first.x, pick(meet, first.y, max(a.y, b.y)));
+}
+vec2 spanWithout(vec2 a, vec2 b) {
+    real begin = pick(a.x - b.x, a.x, max(a.x, b.y));
+    real end = pick(b.y - a.y, a.y, min(a.y, b.x));
+    return spanOrNone(begin, end);
+}
+vec2 spanUnion(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanEither(a, b); }
+vec2 innerUnion(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return joinedSpan(a_inner, b_inner); }
+vec2 spanIntersect(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanBoth(a, b); }
+vec2 innerIntersect(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanBoth(a_inner, b_inner); }
+vec2 spanSubtract(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanWithout(a, b_inner); }
+vec2 innerSubtract(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) {
+    return firstOf(spanOrNone(a_inner.x, min(a_inner.y, b.x)), spanOrNone(max(a_inner.x, b.y), a_inner.y));
+}
+vec2 spanMorph(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanEither(a, b); }
+vec2 innerMorph(vec2 a, vec2 a_inner, vec2 b, vec2 b_inner) { return spanBoth(a_inner, b_inner); }
+
 // Operators on one distance, at a point of their own frame.
 
 // The surface stays and becomes the outside of a wall.

@@ -8,16 +8,19 @@
 // A parameter's name and type here are those of its row in src/core/sdf/primitives.cpp and of the scene file.
 //
 // Beside a distance may stand a span: between which two lengths the line from o along d, of unit length, may be inside; a span
-// whose second end comes first is empty. Nothing outside the span is solid, though not all within must be. It only lengthens
-// a march's step over what is known to be empty; a hit is always a sign of the distance.
+// whose second end comes first is empty. Nothing outside the span is solid, though not all within must be. And beside that an
+// inner span, within which all is solid: what is taken away leaves nothing there. Both only lengthen a march's step over what
+// is known to be empty; a hit is always a sign of the distance.
 
 // Within a box of these half sides around the origin.
-// Rounding may take a hair off either: both are a millionth larger.
+// Rounding may take a hair off a span: an outer one is a millionth larger, an inner one smaller.
+real wider() { return real(1.000001f); }
+real narrower() { return real(0.999997f); }
 real awayFromZero(real x) { return pick(abs(x) - 1e-18f, pick(x, -1e-18f, 1e-18f), x); }
 vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
     vec3 inverse = vec3(1.0f / awayFromZero(d.x), 1.0f / awayFromZero(d.y), 1.0f / awayFromZero(d.z));
     vec3 middle = o * inverse;
-    vec3 reach = half_sides * real(1.000001f) * abs(inverse);
+    vec3 reach = half_sides * abs(inverse);
     return vec2(max(-middle.x - reach.x, max(-middle.y - reach.y, -middle.z - reach.z)),
                 min(reach.x - middle.x, min(reach.y - middle.y, reach.z - middle.z)));
 }
@@ -27,7 +30,7 @@ vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
 vec2 spanBall(vec3 o, vec3 d, real radius) {
     real b = 0.0f - dot(o, d);
     vec3 nearest = o + d * b;
-    real h = square(radius * real(1.000001f)) - dot(nearest, nearest);
+    real h = square(radius) - dot(nearest, nearest);
     real s = sqrt(max(h, 0.0f));
     return vec2(b - pick(h, real(-1.0f), s), b + pick(h, real(-1.0f), s));
 }
@@ -35,7 +38,8 @@ vec2 spanBall(vec3 o, vec3 d, real radius) {
 real sdSphere(vec3 p, real radius) {
     return length(p) - radius;
 }
-vec2 spanSphere(vec3 o, vec3 d, real radius) { return spanBall(o, d, radius); }
+vec2 spanSphere(vec3 o, vec3 d, real radius) { return spanBall(o, d, radius * wider()); }
+vec2 innerSphere(vec3 o, vec3 d, real radius) { return spanBall(o, d, radius * narrower()); }
 
 // The distance to a rounded corner region, q being how far a point lies beyond each face of a box.
 real outside(vec3 q) { return length(max(q, 0.0f)) + min(max(q.x, max(q.y, q.z)), 0.0f); }
@@ -45,7 +49,12 @@ real sdBox(vec3 p, vec3 size, real round) {
     real r = min(round, 0.5f * min(size.x, min(size.y, size.z)));
     return outside(abs(p) - size * real(0.5f) + r) - r;
 }
-vec2 spanBox(vec3 o, vec3 d, vec3 size, real round) { return spanAround(o, d, size * real(0.5f)); }
+vec2 spanBox(vec3 o, vec3 d, vec3 size, real round) { return spanAround(o, d, size * (0.5f * wider())); }
+// Of a rounded edge, the point in its middle lies 1 - sqrt(1/2) of the radius within the sharp one, a corner's 1 - sqrt(1/3).
+vec2 innerBox(vec3 o, vec3 d, vec3 size, real round) {
+    real r = min(round, 0.5f * min(size.x, min(size.y, size.z)));
+    return spanAround(o, d, (size * real(0.5f) - r * real(0.42266f)) * narrower());
+}
 
 // The half-space normal·p <= offset is solid.
 real sdPlane(vec3 p, vec3 normal, real offset) {
@@ -60,18 +69,34 @@ vec2 spanPlane(vec3 o, vec3 d, vec3 normal, real offset) {
 real sdTorus(vec3 p, real major, real minor) {
     return length(vec2(length(vec2(p.x, p.z)) - major, p.y)) - minor;
 }
-vec2 spanTorus(vec3 o, vec3 d, real major, real minor) { return spanAround(o, d, vec3(major + minor, minor, major + minor)); }
+vec2 spanTorus(vec3 o, vec3 d, real major, real minor) { return spanAround(o, d, vec3(major + minor, minor, major + minor) * wider()); }
 
 real sdCylinder(vec3 p, real radius, real height, real round) {
     real r = min(round, min(radius, 0.5f * height));
     return outside(vec2(length(vec2(p.x, p.z)) - radius + r, abs(p.y) - 0.5f * height + r)) - r;
 }
-vec2 spanCylinder(vec3 o, vec3 d, real radius, real height, real round) { return spanAround(o, d, vec3(radius, 0.5f * height, radius)); }
+// Within an endless cylinder around y, as within a ball seen from above; and within a slab of that half height.
+vec2 spanUpright(vec3 o, vec3 d, real radius, real half_height) {
+    real a = max(square(d.x) + square(d.z), real(1e-30f));
+    real b = (0.0f - (o.x * d.x + o.z * d.z)) / a;
+    real h = square(radius) - square(o.x + d.x * b) - square(o.z + d.z * b);
+    real s = sqrt(max(h, 0.0f) / a);
+    real inverse = 1.0f / awayFromZero(d.y);
+    real middle = o.y * inverse;
+    real reach = half_height * abs(inverse);
+    return vec2(max(b - pick(h, real(-1e18f), s), -middle - reach), min(b + pick(h, real(-1e18f), s), reach - middle));
+}
+vec2 spanCylinder(vec3 o, vec3 d, real radius, real height, real round) { return spanUpright(o, d, radius * wider(), height * (0.5f * wider())); }
+vec2 innerCylinder(vec3 o, vec3 d, real radius, real height, real round) {
+    real edge = min(round, min(radius, 0.5f * height)) * real(0.2929f);
+    return spanUpright(o, d, (radius - edge) * narrower(), (0.5f * height - edge) * narrower());
+}
 
 real sdCapsule(vec3 p, real radius, real height) {
     return length(vec3(p.x, max(abs(p.y) - 0.5f * height, 0.0f), p.z)) - radius;
 }
-vec2 spanCapsule(vec3 o, vec3 d, real radius, real height) { return spanAround(o, d, vec3(radius, 0.5f * height + radius, radius)); }
+vec2 spanCapsule(vec3 o, vec3 d, real radius, real height) { return spanUpright(o, d, radius * wider(), (0.5f * height + radius) * wider()); }
+vec2 innerCapsule(vec3 o, vec3 d, real radius, real height) { return spanUpright(o, d, radius * narrower(), height * (0.5f * narrower())); }
 
 // A frustum between a base of `radius` and a top of `radius2`. The nearest feature is a disc (the caps) or the slanted
 // side, a segment in the half-plane of the radius q.x and the height q.y.
@@ -91,14 +116,14 @@ real sdCone(vec3 p, real radius, real radius2, real height) {
     return sqrt(nearest) * pick(beyond, real(-1.0f), real(1.0f));
 }
 vec2 spanCone(vec3 o, vec3 d, real radius, real radius2, real height) {
-    return spanAround(o, d, vec3(max(radius, radius2), 0.5f * height, max(radius, radius2)));
+    return spanUpright(o, d, max(radius, radius2) * wider(), height * (0.5f * wider()));
 }
 
 // A bound: the unit ball's distance in the stretched space, brought back by the least stretch. Its slope is at most 1.
 real sdEllipsoid(vec3 p, vec3 radii) {
     return (length(p / radii) - 1.0f) * min(radii.x, min(radii.y, radii.z));
 }
-vec2 spanEllipsoid(vec3 o, vec3 d, vec3 radii) { return spanAround(o, d, radii); }
+vec2 spanEllipsoid(vec3 o, vec3 d, vec3 radii) { return spanAround(o, d, radii * wider()); }
 
 // The nearest feature is a face, unless the point lies over one of its three edges, where t runs along the edge.
 real octahedronEdge(real a, real b, real c, real radius) {
@@ -112,7 +137,7 @@ real sdOctahedron(vec3 p, real radius) {
            pick(3.0f * q.y - m, octahedronEdge(q.y, q.z, q.x, radius),
            pick(3.0f * q.z - m, octahedronEdge(q.z, q.x, q.y, radius), m / sqrt(real(3.0f)))));
 }
-vec2 spanOctahedron(vec3 o, vec3 d, real radius) { return spanAround(o, d, vec3(radius)); }
+vec2 spanOctahedron(vec3 o, vec3 d, real radius) { return spanAround(o, d, vec3(radius * wider())); }
 
 // Reflects p to the near side of the line through the origin in the direction (c, s), where `on` is negative.
 vec2 foldAcross(vec2 p, real c, real s, real on) {
@@ -141,4 +166,5 @@ real sdPrism(vec3 p, real sides, real radius, real height, real apothem) {
     real across = pick(side.x, side.x, length(side));
     return outside(vec2(across, abs(p.y) - 0.5f * height));
 }
-vec2 spanPrism(vec3 o, vec3 d, real sides, real radius, real height, real apothem) { return spanAround(o, d, vec3(radius, 0.5f * height, radius)); }
+vec2 spanPrism(vec3 o, vec3 d, real sides, real radius, real height, real apothem) { return spanUpright(o, d, radius * wider(), height * (0.5f * wider())); }
+vec2 innerPrism(vec3 o, vec3 d, real sides, real radius, real height, real apothem) { return spanUpright(o, d, apothem * narrower(), height * (0.5f * narrower())); }

@@ -24,4 +24,15 @@ inline std::string numbersOf(std::string_view record, std::span<const Parameter>
     return text;
 }
 
+/// An Ahead (lib/ahead.glsl) of a leaf, along the ray whose origin and direction begin these arguments.
+inline std::string aheadCall(const Primitive& p, std::string_view arguments) {
+    if (p.span.empty()) return "UNKNOWN_AHEAD";
+    return fmt::format("onlyAhead({}({}), {})", p.span, arguments, p.inner.empty() ? "vec2(EMPTY, -EMPTY)" : fmt::format("{}({})", p.inner, arguments));
+}
+/// An Ahead of two under an operator without a blend.
+inline std::string aheadFold(const Operator& o, std::string_view a, std::string_view b) {
+    const std::string arguments = fmt::format("{0}.span, {0}.inner, {1}.span, {1}.inner", a, b);
+    return fmt::format("Ahead({0}({2}), {1}({2}))", o.span, o.inner, arguments);
+}
+
 }  // namespace mb

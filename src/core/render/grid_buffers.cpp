@@ -8,17 +8,12 @@
 namespace mb {
 namespace {
 
-constexpr std::uint32_t kNoItems = 0xFFFFFFFFu, kBrickCell = 0xFFFFFFFFu;
-constexpr std::size_t kGap = 2048;  // unchanged cells that are sent again rather than begin a new piece
+constexpr std::uint32_t kNoItems = 0xFFFFFFFFu, kWhole = 1;
+constexpr std::size_t kBlock = kBrick * kBrick * kBrick;
+constexpr std::size_t kGap = 64;  // unchanged blocks that are sent again rather than begin a new piece
 
-/// A cell as the shader reads it: two 32-bit numbers.
-struct GpuCell {
-    std::uint32_t first, safe;
-};
-GpuCell packed(const GridCell& cell) {
-    return {cell.kind == GridCell::Kind::far ? kNoItems : cell.first,
-            cell.kind == GridCell::Kind::brick ? kBrickCell : std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f)};
-}
+std::uint32_t ballOf(const GridCell& cell, std::uint32_t flag) { return (std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f) & ~kWhole) | flag; }
+std::uint32_t listOf(const GridCell& cell) { return cell.kind == GridCell::Kind::far ? kNoItems : cell.first; }
 
 template <class T> GLsizeiptr bytesOf(std::size_t n) { return static_cast<GLsizeiptr>(n * sizeof(T)); }
 
@@ -40,18 +35,29 @@ bool GridBuffers::reserve(Store& store, std::size_t bytes, GLenum texel) {
     return true;
 }
 
-/// All cells, or the pieces in which some have changed.
+/// The blocks of all coarse cells, or the pieces in which some have changed.
 void GridBuffers::writeCells(Grid& grid, bool whole) {
-    std::vector<std::uint32_t> changed = grid.takeChangedCells();
     const std::span<const GridCell> cells = grid.cells();
-    whole = reserve(cells_, cells.size() * sizeof(GpuCell), GL_RG32UI) || whole;
-    std::vector<GpuCell> piece;
+    const std::size_t blocks = static_cast<std::size_t>(grid.dims().x) * static_cast<std::size_t>(grid.dims().y) * static_cast<std::size_t>(grid.dims().z);
+    std::vector<std::uint32_t> changed = grid.takeChangedCells(), balls, lists;
+    const std::size_t bytes = blocks * kBlock * sizeof balls[0];
+    const bool cells_gone = reserve(cells_, bytes, GL_R32UI), lists_gone = reserve(lists_, bytes, GL_R32UI);
     const auto send = [&](std::size_t begin, std::size_t end) {
-        piece.clear();
-        for (std::size_t i = begin; i < end; ++i) piece.push_back(packed(cells[i]));
-        glBufferSubData(GL_TEXTURE_BUFFER, bytesOf<GpuCell>(begin), bytesOf<GpuCell>(piece.size()), piece.data());
+        balls.clear(), lists.clear();
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool cut = cells[i].kind == GridCell::Kind::brick;
+            for (std::size_t k = 0; k < kBlock; ++k) {
+                const GridCell& cell = cut ? cells[cells[i].first + k] : cells[i];
+                balls.push_back(ballOf(cell, cut ? 0 : kWhole)), lists.push_back(listOf(cell));
+            }
+        }
+        for (const auto& [store, words] : {std::pair(&cells_, &balls), std::pair(&lists_, &lists)}) {
+            glBindBuffer(GL_TEXTURE_BUFFER, store->buffer);
+            glBufferSubData(GL_TEXTURE_BUFFER, bytesOf<std::uint32_t>(begin * kBlock), bytesOf<std::uint32_t>(words->size()), words->data());
+        }
     };
-    if (whole) return send(0, cells.size());
+    if (whole || cells_gone || lists_gone) return send(0, blocks);
+    std::erase_if(changed, [blocks](std::uint32_t i) { return i >= blocks; });  // a brick's cells come with its coarse one
     std::ranges::sort(changed);
     for (std::size_t i = 0, next = 0; i < changed.size(); i = next) {
         for (next = i + 1; next < changed.size() && changed[next] - changed[next - 1] < kGap;) ++next;
@@ -63,7 +69,7 @@ std::string GridBuffers::upload(Grid& grid, const Packed& packed) {
     const std::size_t records = packed.leaves.size() * sizeof(GpuNode) + packed.branches.size() * sizeof(GpuNode) + packed.materials.size() * sizeof(GpuMaterial);
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (std::max({grid.cells().size(), grid.items().size(), records / sizeof(glm::vec4)}) > static_cast<std::size_t>(most))
+    if (std::max({kBlock * grid.cells().size(), grid.items().size(), records / sizeof(glm::vec4)}) > static_cast<std::size_t>(most))
         return fmt::format("the scene needs {} cells, {} items and {} numbers; this driver's buffer textures hold {}", grid.cells().size(),
                            grid.items().size(), records / sizeof(float), most);
 
@@ -90,7 +96,7 @@ std::string GridBuffers::upload(Grid& grid, const Packed& packed) {
 }
 
 void GridBuffers::bind(const Program& program) const {
-    const std::pair<const char*, const Store*> kSamplers[] = {{"grid_cells", &cells_}, {"grid_items", &items_}, {"records", &records_}};
+    const std::pair<const char*, const Store*> kSamplers[] = {{"grid_cells", &cells_}, {"grid_lists", &lists_}, {"grid_items", &items_}, {"records", &records_}};
     GLenum unit = 1;  // 0 is for what a pass reads of its own
     for (const auto& [name, store] : kSamplers) {
         glActiveTexture(GL_TEXTURE0 + unit);
@@ -106,6 +112,7 @@ void placeGrid(const Grid& grid, glm::dvec3 origin, GpuFrame& frame) {
     frame.grid_corner = glm::vec4(glm::vec3(grid.corner() - origin), static_cast<float>(grid.cellSize()));
     frame.box_lo = any ? relative(grid.box().lo) : glm::vec4(static_cast<float>(kEmptyDistance));
     frame.box_hi = any ? relative(grid.box().hi) : glm::vec4(static_cast<float>(kEmptyDistance));
+    frame.box_lo.w = static_cast<float>(kBrick / grid.cellSize());
     frame.grid_size = {grid.dims(), static_cast<int>(grid.outer().count)};
 }
 

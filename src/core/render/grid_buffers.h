@@ -23,7 +23,7 @@ private:
     bool reserve(Store& store, std::size_t bytes, GLenum texel);
     void writeCells(Grid& grid, bool whole);
 
-    Store cells_, items_, records_;
+    Store cells_, lists_, items_, records_;
     std::uint64_t generation_ = 0;
     std::size_t items_sent_ = 0;
 };

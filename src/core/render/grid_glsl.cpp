@@ -12,6 +12,7 @@ namespace {
 /// The rows of both tables that a tree uses, by number.
 struct Used {
     std::set<std::size_t> leaves, folds, wraps, warps;
+    bool blends = false;  // some fold has a number that is not 0
     bool plain() const { return folds.empty() && wraps.empty(); }
 };
 Used usedBy(const Tree& tree) {
@@ -24,6 +25,7 @@ Used usedBy(const Tree& tree) {
             const auto row = static_cast<std::size_t>(op - operators().data());
             (step.kind == Instruction::Kind::fold ? used.folds : used.wraps).insert(row);
             if (op->warp_by) used.warps.insert(row);
+            used.blends = used.blends || (op->kind == Operator::Kind::fold && tree.branches[step.index].blend != 0);
         }
     }
     return used;
@@ -45,10 +47,13 @@ std::string choosers(const Used& used) {
         const Primitive& p = primitives()[row];
         return fmt::format("{}(at{})", p.glsl, numbersOf("node", p.parameters, p.leafNumbers()));
     });
-    text += chooser("vec2 leafSpan(int code, vec3 o, vec3 d, Node node)", "vec2 result = vec2(-EMPTY, EMPTY)", "code", used.leaves, 0, [](std::size_t row) {
+    text += chooser("Ahead leafAhead(int code, vec3 o, vec3 d, Node node)", "Ahead result = UNKNOWN_AHEAD", "code", used.leaves, 0, [](std::size_t row) {
         const Primitive& p = primitives()[row];
-        return p.span.empty() ? std::string("vec2(-EMPTY, EMPTY)") : fmt::format("{}(o, d{})", p.span, numbersOf("node", p.parameters, p.leafNumbers()));
+        return aheadCall(p, "o, d" + numbersOf("node", p.parameters, p.leafNumbers()));
     });
+    if (!used.folds.empty())
+        text += chooser("Ahead foldAhead(int how, Ahead a, Ahead b)", "Ahead result = a", "how", used.folds, kItemFolds,
+                        [](std::size_t row) { return aheadFold(operators()[row], "a", "b"); });
     for (const bool share : {false, true})
         if (!used.folds.empty())
             text += chooser(fmt::format("float {}(int how, float a, float b, float k)", share ? "shareOfSecond" : "foldDistances"), "float result = a", "how",
@@ -73,15 +78,16 @@ std::string choosers(const Used& used) {
 struct Flavour {
     std::string_view type, head, empty, leaf, join, fold, wrap, result;
     bool looks_ahead = false;
+    int spaces = 1;  // within one another, at most
 };
 constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", "leafDistance(item.code, at, node)", "min(top, value)", "foldDistances(item.how, top, value, k)",
                        "top = wrapDistance(item.code, top, at, node)", "min(top, cell.safe)"};
-constexpr std::string_view kAheadHead = "vec3 mapAhead(vec3 p, vec3 d, Cell cell, out int leaf)";
-constexpr Flavour kAhead{"float", kAheadHead, kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap, "vec3(min(top, cell.safe), free, free < exit ? 1.0 : 0.0)", true};
+constexpr std::string_view kAheadHead = "float lookAhead(vec3 p, vec3 d, Cell cell, out int leaf, out Ahead ahead)";
+constexpr Flavour kAhead{"float", kAheadHead, kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap, kMap.result, true};
 /// Where every surface is one leaf's own, the march keeps whose.
 constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(leafDistance(item.code, at, node), item.record)", "nearer(top, value)",
                         "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
-                        "", "vec3(min(top.distance, cell.safe), free, free < exit ? 1.0 : 0.0)", true};
+                        "", "min(top.distance, cell.safe)", true};
 constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(leafDistance(item.code, at, node), item.record, at)",
                            "nearer(top, value)",
                            "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
@@ -101,38 +107,46 @@ std::string registers(std::string_view type, std::string_view name, int depth) {
     return text;
 }
 
-/// llvmpipe masks what an `if` encloses and skips nothing: whatever no item of the scene can ask for is not written.
-std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
-    std::string text = fmt::format("{1} {{\n{5}    {0} top = {2};\n{3}    vec3 q = p;\n{4}    int i = cell.first;\n"
-                                   "    bool more = i >= 0;\n    while (more) {{\n        Item item = itemAt(i);\n        Node node = recordAt(item.record);\n"
-                                   "        vec3 at = local(q, node);\n",
-                                   f.type, f.head, f.empty, registers(f.type, "top", stack),
-                                   registers("vec3", "q", warps + 1) + (f.looks_ahead ? "    float exit = freeIn(cell, p, d), free = exit;\n" : ""),
-                                   f.looks_ahead ? "" : "    Cell cell = cellAt(p);\n");
-    const std::string span = f.looks_ahead ? " free = freeBefore(free, leafSpan(item.code, at, turnedTo(d, node), node));" : "";
-    if (used.plain()) {
-        text += fmt::format("        {} value = {};\n        top = {};\n       {} touches += 1;\n", f.type, f.leaf, f.join, span);
-    } else {
-        text += fmt::format("        {} value = top;\n        bool is_leaf = item.code < {};\n", f.type, kItemEnter);
-        text += fmt::format("        if (is_leaf) {{ value = {};{} touches += 1; }}\n", f.leaf, span);
-        if (f.looks_ahead && !used.wraps.empty())  // what is warped, or swells, is not where its leaves are
-            text += fmt::format("        if (item.code >= {} && item.code < {}) free = 0.0;\n", kItemEnter, kItemPop);
-        if (stack > 1) text += fmt::format("        if (item.code == {}) {{{} }}\n", kItemPop, shifted("top", stack, false));
-        if (!used.wraps.empty()) {
-            // A wrap that closes a space is asked in the one around it.
-            if (!used.warps.empty()) {
-                std::string closes, opens = fmt::format("item.code >= {} && item.code < {}", kItemEnter, kItemWrap);
-                for (const std::size_t row : used.warps) closes += fmt::format("{}item.code == {}", closes.empty() ? "" : " || ", kItemWrap + row);
-                text += fmt::format("        if ({}) {{{} at = local(q, node); }}\n", closes, shifted("q", warps + 1, false));
-                text += fmt::format("        if ({}) {{{} q = warpPoint(item.code, at, node); }}\n", opens, shifted("q", warps + 1, true));
-            }
-            text += fmt::format("        if (item.code >= {} && item.code < {}) {};\n", kItemWrap, kItemPop, f.wrap);
+/// What an item does to the values: a leaf makes one, which is joined with those so far.
+std::string plainStep(const Flavour& f) {
+    std::string text = fmt::format("        {} value = {};\n        top = {};\n        touches += 1;\n", f.type, f.leaf, f.join);
+    if (f.looks_ahead) text += "        ahead = anyAhead(ahead, leafAhead(item.code, at, turnedTo(d, node), node));\n";
+    return text;
+}
+/// The same where there are folds and wraps, and so a stack.
+std::string foldStep(const Flavour& f, const Used& used, int stack) {
+    const auto shift = [&](bool up) { return shifted("top", stack, up) + (f.looks_ahead ? shifted("ahead", stack, up) : ""); };
+    const auto seen = [&f](std::string_view text) { return f.looks_ahead ? text : std::string_view(); };
+    std::string text = fmt::format("        {} value = top;\n{}        bool is_leaf = item.code < {};\n        if (is_leaf) {{ value = {};{} touches += 1; }}\n", f.type,
+                                   seen("        Ahead seen = ahead;\n"), kItemEnter, f.leaf, seen(" seen = leafAhead(item.code, at, turnedTo(d, node), node);"));
+    if (stack > 1) text += fmt::format("        if (item.code == {}) {{{} }}\n", kItemPop, shift(false));
+    if (!used.wraps.empty()) {
+        // A wrap that closes a space is asked in the one around it.
+        if (!used.warps.empty()) {
+            std::string closes, opens = fmt::format("item.code >= {} && item.code < {}", kItemEnter, kItemWrap);
+            for (const std::size_t row : used.warps) closes += fmt::format("{}item.code == {}", closes.empty() ? "" : " || ", kItemWrap + row);
+            text += fmt::format("        if ({}) {{{} at = local(q, node); }}\n", closes, shifted("q", f.spaces, false));
+            text += fmt::format("        if ({}) {{{} q = warpPoint(item.code, at, node); }}\n", opens, shifted("q", f.spaces, true));
         }
-        text += fmt::format("        if (item.how == {}) {{ if (is_leaf) {{{} top = value; }} }}\n        else if (item.how == {}) top = {};\n", kItemPush,
-                            shifted("top", stack, true), kItemJoin, f.join);
-        if (!used.folds.empty())
-            text += fmt::format("        else {{ float k = recordTexel(item.joined * NODE_TEXELS).w;{} top = {}; }}\n", f.looks_ahead ? " if (k > 0.0) free = 0.0;" : "", f.fold);
+        // What is warped, or swells, is not where its leaves are.
+        text += fmt::format("        if (item.code >= {} && item.code < {}) {{ {};{} }}\n", kItemWrap, kItemPop, f.wrap, seen(" ahead = UNKNOWN_AHEAD;"));
     }
+    text += fmt::format("        if (item.how == {}) {{ if (is_leaf) {{{} top = value;{} }} }}\n        else if (item.how == {}) {{ top = {};{} }}\n", kItemPush, shift(true),
+                        seen(" ahead = seen;"), kItemJoin, f.join, seen(" ahead = anyAhead(ahead, seen);"));
+    if (!used.folds.empty())
+        text += fmt::format("        else {{ float k = {}; top = {};{} }}\n", used.blends ? "recordTexel(item.joined * NODE_TEXELS).w" : "0.0", f.fold,
+                            seen(" ahead = foldAhead(item.how, ahead, seen); if (k > 0.0) ahead = UNKNOWN_AHEAD;"));
+    return text;
+}
+
+/// llvmpipe masks what an `if` encloses and skips nothing: whatever no item of the scene can ask for is not written.
+std::string runner(const Flavour& f, const Used& used, int stack) {
+    std::string text = fmt::format("{} {{\n{}    {} top = {};\n{}{}    vec3 q = p;\n{}", f.head, f.looks_ahead ? "" : "    Cell cell = cellAt(p);\n", f.type, f.empty,
+                                   registers(f.type, "top", stack), f.looks_ahead ? "    ahead = NOTHING_AHEAD;\n" + registers("Ahead", "ahead", stack) : "",
+                                   registers("vec3", "q", f.spaces));
+    text += "    int i = cell.first;\n    bool more = i >= 0;\n    while (more) {\n        Item item = itemAt(i);\n        Node node = recordAt(item.record);\n"
+            "        vec3 at = local(q, node);\n";
+    text += used.plain() ? plainStep(f) : foldStep(f, used, stack);
     return text + fmt::format("        more = !item.last;\n        ++i;\n    }}\n    if (more) cut_short = true;\n{}    return {};\n}}\n",
                               !f.looks_ahead ? "" : f.type == "Lead" ? "    leaf = top.leaf;\n" : "    leaf = -1;\n", f.result);
 }
@@ -142,10 +156,13 @@ std::string runner(const Flavour& f, const Used& used, int stack, int warps) {
 std::string gridGlsl(const Tree& tree) {
     const Used used = usedBy(tree);
     const int stack = itemStack(tree, tree.program);
-    if (used.leaves.empty()) return sceneGlsl(tree);
     const bool own = staysWithinLeaves(tree) && std::ranges::all_of(tree.branches, [](const Branch& b) { return b.op->blends; });
-    return fmt::format("#define {}\n#include \"lib/grid.glsl\"\nvoid readScene() {{}}\n", own ? "LEAF_SURFACE" : "RELAXED") + choosers(used) + runner(kMap, used, stack, tree.warps) +
-           runner(own ? kLead : kAhead, used, stack, tree.warps) + runner(kNearest, used, stack, tree.warps);
+    std::string text = fmt::format("#define {}\n#include \"lib/grid.glsl\"\nvoid readScene() {{}}\n", own ? "LEAF_SURFACE" : "RELAXED") + choosers(used);
+    for (Flavour f : {kMap, own ? kLead : kAhead, kNearest}) {
+        f.spaces = tree.warps + 1;
+        text += runner(f, used, stack);
+    }
+    return text;
 }
 
 }  // namespace mb

@@ -168,7 +168,8 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     ready.frame = packFrame(scene, camera, size);
     ready.frame.reach.w = ready.packed.reach;
     ready.frame.pass.w = static_cast<int>(tree.leaves.size() + tree.branches.size());
-    ready.grid = evaluation_ == Evaluation::grid || (evaluation_ == Evaluation::automatic && tree.leaves.size() > kStraightLeaves);
+    const std::size_t straight = evaluation_ == Evaluation::grid ? 0 : evaluation_ == Evaluation::straight ? tree.leaves.size() : kStraightLeaves;
+    ready.grid = tree.leaves.size() > straight;
     GridOnGpu& grid = variant == Variant::evaluate ? exact_ : marched_;
     grid_work_ = {};
     if (ready.grid) {

@@ -21,10 +21,8 @@ struct Writer {
         const std::string at = leaf.primitive->turns ? fmt::format("local({}, {})", p, record) : fmt::format("{} - {}.position.xyz", p, record);
         const std::string line = fmt::format("    float d{} = {}({}{});\n", v, leaf.primitive->glsl, at, numbers);
         map += line, ahead += line;
-        ahead += leaf.primitive->span.empty()
-                     ? std::string("    free = 0.0;\n")
-                     : fmt::format("    free = freeBefore(free, {}({}, {}{}));\n", leaf.primitive->span, at,
-                                   leaf.primitive->turns ? fmt::format("turnedTo(d, {})", record) : "d", numbers);
+        const std::string along = fmt::format("{}, {}{}", at, leaf.primitive->turns ? fmt::format("turnedTo(d, {})", record) : "d", numbers);
+        ahead += fmt::format("    Ahead a{} = {};\n", v, aheadCall(*leaf.primitive, along));
         find += fmt::format("    float d{} = {}({}{});\n    Nearest n{} = foundLeaf(d{}, {}, local({}, {}));\n", v, leaf.primitive->glsl, at,
                             numbers, v, v, i, p, record);
         stack.push_back(v);
@@ -35,6 +33,7 @@ struct Writer {
         const std::string v = name();
         const std::string line = fmt::format("    float d{} = min(d{}, d{});\n", v, a, b);
         map += line, ahead += line;
+        ahead += fmt::format("    Ahead a{} = anyAhead(a{}, a{});\n", v, a, b);
         find += fmt::format("    Nearest n{} = nearer(n{}, n{});\n", v, a, b);
         stack.push_back(v);
     }
@@ -46,6 +45,7 @@ struct Writer {
         const std::string v = name(), k = branch.blend > 0 ? fmt::format("branch{}.position.w", i) : "0.0";
         const std::string line = fmt::format("    float d{} = {}(d{}, d{}, {});\n", v, branch.op->glsl, a, b, k);
         map += line, ahead += line;
+        ahead += fmt::format("    Ahead a{} = {};\n", v, aheadFold(*branch.op, "a" + a, "a" + b));
         find += fmt::format("    Nearest n{0} = foundBoth({1}(n{3}.distance, n{4}.distance, {5}), {2}(n{3}.distance, n{4}.distance, {5}), n{3}, n{4});\n",
                             v, branch.op->glsl, branch.op->share, a, b, k);
         stack.push_back(v);
@@ -111,10 +111,10 @@ std::string sceneGlsl(const Tree& tree) {
     const std::string count = fmt::format("    touches += {};\n", tree.leaves.size());
     // What lies where its primitives do can be looked ahead for; what swells or warps them cannot.
     const std::string ahead = staysWithinLeaves(tree)
-                                  ? fmt::format("vec3 mapAhead(vec3 p, vec3 d, out int leaf) {{\n    leaf = -1;\n    float free = {:.1f};\n{}{}    return vec3({}, free, 1.0);\n}}\n",
-                                                kEmptyDistance, w.ahead, count, value)
+                                  ? fmt::format("vec3 mapAhead(vec3 p, vec3 d, out int leaf) {{\n    leaf = -1;\n{}{}    return vec3({}, {}, 1.0);\n}}\n",
+                                                w.ahead, count, value, empty ? "EMPTY" : fmt::format("min(a{}.span.x, EMPTY)", w.stack.back()))
                                   : std::string("#define RELAXED\nvec3 mapAhead(vec3 p, vec3 d, out int leaf) {\n    leaf = -1;\n    return vec3(map(p), 0.0, 0.0);\n}\n");
-    return fmt::format("{}void readScene() {{\n{}}}\nfloat enterScene(vec3 o, vec3 d) {{ return 0.0; }}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
+    return fmt::format("#include \"lib/ahead.glsl\"\n{}void readScene() {{\n{}}}\nfloat enterScene(vec3 o, vec3 d) {{ return 0.0; }}\nfloat map(vec3 p) {{\n{}{}    return {};\n}}\n{}Nearest nearest(vec3 p) {{\n{}{}    return {};\n}}\n", held,
                        read, w.map, count, value, ahead, w.find, count, empty ? fmt::format("foundLeaf({:.1f}, -1, p)", kEmptyDistance) : "n" + w.stack.back());
 }
 

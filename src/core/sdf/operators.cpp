@@ -49,10 +49,15 @@ template <class F> constexpr ForScalars<WarpFunction> warping(F) {
     return {warpWith<float, F>, warpWith<double, F>, warpWith<sdf::Dual, F>, warpWith<sdf::Interval, F>};
 }
 
-template <int N, class F, class S> constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share) {
+template <int N, class F, class S, class O, class I>
+constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share, O span, I inner) {
     if (N != 1 || parameters[0].size != 1) throw "a fold takes one number";
     o.kind = Operator::Kind::fold, o.parameters = parameters;
     o.fold_by = folding(f), o.share_by = folding(share);
+    using Span = sdf::Vec2<double>;
+    o.span_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*O{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };
+    o.inner_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*I{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };
+    (void)span, (void)inner;
     return o;
 }
 /// A row whose parameters, with the derived ones, do not match the GLSL function does not compile.
@@ -116,24 +121,25 @@ Copy mirrorCopy(const Numbers& k, std::size_t i) {
     return copy;
 }
 
-constexpr Operator about(std::string_view name, std::string_view glsl, std::string_view tip, std::string_view share = {}) {
+constexpr Operator about(std::string_view name, std::string_view glsl, std::string_view tip, std::string_view share = {},
+                         std::string_view span = {}, std::string_view inner = {}) {
     Operator o{};
-    o.name = name, o.glsl = glsl, o.tip = tip, o.share = share, o.min_children = 1, o.max_children = 100'000;
+    o.name = name, o.glsl = glsl, o.tip = tip, o.share = share, o.span = span, o.inner = inner, o.min_children = 1, o.max_children = 100'000;
     return o;
 }
 template <class Claim> constexpr Operator claims(Operator o, Claim claim) { return claim(o), o; }
 
 constexpr Operator kOperators[] = {
-    fold(claims(about("union", "opUnion", "All of the children together", "shareUnion"), [](Operator& o) { o.commutative = o.blends = true; }),
-         kBlend, MB_FUNCTION(opUnion), MB_FUNCTION(shareUnion)),
-    fold(claims(about("intersect", "opIntersect", "What all the children share", "shareIntersect"),
+    fold(claims(about("union", "opUnion", "All of the children together", "shareUnion", "spanUnion", "innerUnion"), [](Operator& o) { o.commutative = o.blends = true; }),
+         kBlend, MB_FUNCTION(opUnion), MB_FUNCTION(shareUnion), MB_FUNCTION(spanUnion), MB_FUNCTION(innerUnion)),
+    fold(claims(about("intersect", "opIntersect", "What all the children share", "shareIntersect", "spanIntersect", "innerIntersect"),
                 [](Operator& o) { o.commutative = o.blends = o.intersects = true; }),
-         kBlend, MB_FUNCTION(opIntersect), MB_FUNCTION(shareIntersect)),
-    fold(claims(about("subtract", "opSubtract", "The first child less all the others", "shareSubtract"),
+         kBlend, MB_FUNCTION(opIntersect), MB_FUNCTION(shareIntersect), MB_FUNCTION(spanIntersect), MB_FUNCTION(innerIntersect)),
+    fold(claims(about("subtract", "opSubtract", "The first child less all the others", "shareSubtract", "spanSubtract", "innerSubtract"),
                 [](Operator& o) { o.blends = o.first_only = true; }),
-         kBlend, MB_FUNCTION(opSubtract), MB_FUNCTION(shareSubtract)),
-    fold(claims(about("morph", "opMorph", "A shape between two shapes", "shareMorph"), [](Operator& o) { o.min_children = o.max_children = 2; }),
-         kMorph, MB_FUNCTION(opMorph), MB_FUNCTION(shareMorph)),
+         kBlend, MB_FUNCTION(opSubtract), MB_FUNCTION(shareSubtract), MB_FUNCTION(spanSubtract), MB_FUNCTION(innerSubtract)),
+    fold(claims(about("morph", "opMorph", "A shape between two shapes", "shareMorph", "spanMorph", "innerMorph"), [](Operator& o) { o.min_children = o.max_children = 2; }),
+         kMorph, MB_FUNCTION(opMorph), MB_FUNCTION(shareMorph), MB_FUNCTION(spanMorph), MB_FUNCTION(innerMorph)),
     wrap(about("shell", "opShell", "Hollows a shape: its wall lies inside its surface"), kShell, MB_FUNCTION(opShell)),
     wrap(claims(about("round", "opRound", "Swells a shape"), [](Operator& o) { o.grows = [](const LeafNumbers& k) { return k[0]; }; }), kRound,
          MB_FUNCTION(opRound)),

@@ -109,30 +109,41 @@ constexpr Primitive boundless(void (*move_origin)(LeafNumbers&, const std::array
     return p;
 }
 
-/// The row with its span: where a ray may be inside it.
-template <class F> constexpr Primitive spanned(std::string_view span, F f, Primitive p) {
+template <class F> constexpr void checkSpan(const Primitive& p, F f) {
     int declared = p.derived.empty() ? 0 : 1;
     for (const Parameter& parameter : p.parameters) declared += parameter.size;
     if (declared != sdf::spanNumbers(f(sdf::Sdf<float>{}))) throw "the parameters do not match the span's";
+}
+/// The row with its span: where a ray may be inside it.
+template <class F> constexpr Primitive spanned(std::string_view span, F f, Primitive p) {
+    checkSpan(p, f);
     p.span = span;
     p.span_f32 = [](sdf::Vec3<float> o, sdf::Vec3<float> d, const double* k) { return sdf::span(F{}(sdf::Sdf<float>{}), o, d, k); };
     p.span_f64 = [](sdf::Vec3<double> o, sdf::Vec3<double> d, const double* k) { return sdf::span(F{}(sdf::Sdf<double>{}), o, d, k); };
     return p;
 }
+/// And with its inner span: where a ray is inside it for certain.
+template <class F> constexpr Primitive filled(std::string_view inner, F f, Primitive p) {
+    checkSpan(p, f);
+    p.inner = inner;
+    p.inner_f32 = [](sdf::Vec3<float> o, sdf::Vec3<float> d, const double* k) { return sdf::span(F{}(sdf::Sdf<float>{}), o, d, k); };
+    p.inner_f64 = [](sdf::Vec3<double> o, sdf::Vec3<double> d, const double* k) { return sdf::span(F{}(sdf::Sdf<double>{}), o, d, k); };
+    return p;
+}
 #define MB_SPAN(name) #name, MB_FUNCTION(name)
 
 constexpr Primitive kPrimitives[] = {
-    spanned(MB_SPAN(spanSphere), row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
-        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })),
-    spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
-        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); })),
-    spanned(MB_SPAN(spanPlane), boundless(movePlane, row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent))),
+    filled(MB_SPAN(innerSphere), spanned(MB_SPAN(spanSphere), row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }))),
+    filled(MB_SPAN(innerBox), spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
+        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); }))),
+    filled(MB_SPAN(spanPlane), spanned(MB_SPAN(spanPlane), boundless(movePlane, row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent)))),
     spanned(MB_SPAN(spanTorus), row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
         [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); })),
-    spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
-        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); })),
-    spanned(MB_SPAN(spanCapsule), row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
-        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); })),
+    filled(MB_SPAN(innerCylinder), spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
+        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); }))),
+    filled(MB_SPAN(innerCapsule), spanned(MB_SPAN(spanCapsule), row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
+        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); }))),
     spanned(MB_SPAN(spanCone), row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
         [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); })),
     spanned(MB_SPAN(spanEllipsoid), row({.name = "ellipsoid", .glsl = "sdEllipsoid", .tip = "A ball stretched along the axes", .exact = false, .rises = ellipsoidRises},
@@ -140,8 +151,8 @@ constexpr Primitive kPrimitives[] = {
         [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); })),
     spanned(MB_SPAN(spanOctahedron), row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
         [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })),
-    spanned(MB_SPAN(spanPrism), row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
-        prismExtent)),
+    filled(MB_SPAN(innerPrism), spanned(MB_SPAN(spanPrism), row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
+        prismExtent))),
 };
 
 }  // namespace

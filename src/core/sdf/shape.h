@@ -59,6 +59,9 @@ struct Primitive : ShapeType {
     std::string_view span;                     // spanSphere: where a ray may be inside; empty: not known
     sdf::Vec2<float> (*span_f32)(sdf::Vec3<float> o, sdf::Vec3<float> d, const double*) = nullptr;
     sdf::Vec2<double> (*span_f64)(sdf::Vec3<double> o, sdf::Vec3<double> d, const double*) = nullptr;
+    std::string_view inner;                    // innerSphere: where a ray is inside for certain; empty: not known
+    sdf::Vec2<float> (*inner_f32)(sdf::Vec3<float> o, sdf::Vec3<float> d, const double*) = nullptr;
+    sdf::Vec2<double> (*inner_f64)(sdf::Vec3<double> o, sdf::Vec3<double> d, const double*) = nullptr;
 
     template <class R> R distance(sdf::Vec3<R> p, const LeafNumbers& k) const {
         if constexpr (std::is_same_v<R, float>) return f32(p, k.data());
@@ -85,6 +88,8 @@ template <template <class> class Signature> struct ForScalars {
     explicit operator bool() const { return f64 != nullptr; }
 };
 template <class R> using FoldFunction = R (*)(R a, R b, double k);
+/// A span of the result, from the two children's spans and inner spans.
+using SpanFunction = sdf::Vec2<double> (*)(sdf::Vec2<double> a, sdf::Vec2<double> a_inner, sdf::Vec2<double> b, sdf::Vec2<double> b_inner);
 template <class R> using WrapFunction = R (*)(R d, sdf::Vec3<R> p, const double* k);
 template <class R> using WarpFunction = sdf::Vec3<R> (*)(sdf::Vec3<R> p, const double* k);
 
@@ -101,6 +106,7 @@ struct Operator : ShapeType {
     enum class Kind { fold, wrap, copies } kind = Kind::fold;
     std::string_view glsl;                     // the function on distances: opUnion, opTwist; none of copies
     std::string_view share;                    // of a fold: how much of the second child shows, shareUnion
+    std::string_view span, inner;              // of a fold: of its children's spans, spanUnion and innerUnion
     std::string_view warp;                     // of a wrap that warps space: warpTwist
     std::array<std::string_view, 2> derived{}; // names of the numbers a wrap's cook adds behind the file's
     bool commutative = false;
@@ -109,6 +115,7 @@ struct Operator : ShapeType {
     bool blends = false;                       // its first parameter is a blend: at 0 it is the plain operator
     bool takes_point = false;                  // the wrap's function asks where it is
     ForScalars<FoldFunction> fold_by, share_by;
+    SpanFunction span_by = nullptr, inner_by = nullptr;
     ForScalars<WrapFunction> wrap_by;
     ForScalars<WarpFunction> warp_by;
     void (*cook)(LeafNumbers&, const Box& child) = nullptr;  // of a wrap: the GLSL's numbers from the scaled ones of the file
