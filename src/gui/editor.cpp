@@ -300,11 +300,13 @@ void Editor::keepView() {
 
 void Editor::resetView() { orbit_ = Orbit::around(defaultCamera(scene_)), ++revision_; }
 
-ObjectId Editor::pick(glm::ivec2 picture, glm::dvec2 point) {
+ObjectId Editor::pick(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn) {
     if (picture.x < 1 || picture.y < 1) return {};
     const Camera eye = camera();
     const Ray ray = cameraRay(eye, picture, point);
-    const RayEnd end = raycast(makeTree(scene_), ray.origin, ray.direction, scene_.render.max_distance);
+    const Tree tree = makeTree(scene_);
+    const double far = scene_.render.max_distance;
+    const RayEnd end = drawn && drawn->follows(tree) ? raycast(*drawn, ray.origin, ray.direction, far) : raycast(tree, ray.origin, ray.direction, far);
     // A ray that is not decided may have passed within a pixel of a surface: near enough for a click.
     const double pixel = 2 * viewOf(eye).half / picture.y * (eye.ortho > 0 ? 1 : end.t);
     if (end.state == RayState::miss || end.leaf < 0 || (end.state == RayState::undecided && end.closest > pixel)) return {};

@@ -89,8 +89,8 @@ public:
     /// Back to the scene's first camera.
     void resetView();
     /// Selects what is seen at a point of the picture (pixels from its top left corner): the whole object first, the part of
-    /// it if that is selected already. Null where nothing is.
-    ObjectId pick(glm::ivec2 picture, glm::dvec2 point);
+    /// it if that is selected already. Null where nothing is. A grid that the picture was drawn through saves asking every object.
+    ObjectId pick(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn = nullptr);
 
     // Time (editor_motion.cpp).
     const Simulation& simulation() const { return simulation_; }

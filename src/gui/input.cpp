@@ -29,7 +29,7 @@ void handleMouse(Ui& ui) {
     if (io.MouseWheel != 0) ui.editor.zoom(static_cast<double>(io.MouseWheel));
     if (!ImGui::IsMouseClicked(ImGuiMouseButton_Right)) return;
     const glm::dvec2 at{io.MousePos.x - ui.picture_corner.x, io.MousePos.y - ui.picture_corner.y};
-    if (ui.editor.pick({static_cast<int>(ui.picture_size.x), static_cast<int>(ui.picture_size.y)}, at + 0.5))
+    if (ui.editor.pick({static_cast<int>(ui.picture_size.x), static_cast<int>(ui.picture_size.y)}, at + 0.5, ui.picture.grid))
         ui.show("Attributes"), ui.attributes_to_top = true;
     else
         ui.editor.select({});

@@ -21,6 +21,7 @@ struct PictureState {
     bool refining = false;
     std::string why;               // it cannot be drawn; the last one that could still shows
     std::string renderer;          // GL_RENDERER
+    const Grid* grid = nullptr;    // it was drawn through that; null: through none
     bool count_wanted = false;     // asked for by a panel; the viewport answers in `counts`
     std::string counts;
 };

@@ -165,6 +165,7 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     if (state.count_wanted) state.count_wanted = false, state.counts = count(editor.scene(), editor.camera());
     busy_ = !refined_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
+    state.grid = renderer_->grid();
     state.refining = busy_ && next_row_ > 0;
 }
 

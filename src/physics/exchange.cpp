@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace mb {
 namespace {
@@ -88,11 +89,12 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
     world_ = scene.world, knobs_ = scene.physics;
     before_ += field_.evaluations();
     std::vector<std::string> notes;
+    const StaticField field_before = std::exchange(field_, {});
     field_ = StaticField(scene, [&](std::size_t i) {
         const ObjectId id = scene.objects[i].id;
         return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == id; }) &&
                std::find(gone_.begin(), gone_.end(), id) == gone_.end();
-    }, notes);
+    }, notes, &field_before);
     for (std::string& text : notes) note(std::move(text));
     for (NearStatics& near : near_) near = {};
     for (Body& b : bodies_) b.awake = true, b.still = 0;

@@ -12,6 +12,14 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
+constexpr std::size_t kMany = 32;       // solids, or leaves of one: fewer are asked one after the other
+
+/// The grid of a tree, made from that of what stood there before, if anything did. (Copies of a world share theirs.)
+std::shared_ptr<const Grid> gridOf(const Tree& tree, Grid::Exact exact, const Grid* before) {
+    const auto grid = before ? std::make_shared<Grid>(*before) : std::make_shared<Grid>(exact);
+    grid->follow(tree);
+    return grid;
+}
 
 /// Whether the surface lies elsewhere than on its leaves' own: the tree wraps, warps or morphs.
 bool movesSurfaces(const Tree& tree) {
@@ -42,17 +50,40 @@ std::vector<signed char> sidesOf(const Tree& tree) {
 
 }  // namespace
 
-StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes) {
+StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes,
+                         const StaticField* before) {
+    std::vector<std::size_t> objects;  // that the solids are
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) {
         if (scene.objects[i].hidden || !wanted(i)) continue;
-        Solid solid{makeTree(scene, [i](std::size_t k) { return k == i; }), {}, {}, false};
+        Solid solid{makeTreeOf(scene, i), {}, {}, false, {}};
         if (!solid.tree.fault.empty()) io_notes.push_back(fmt::format("no ball meets it: {}", solid.tree.fault));
         if (solid.tree.program.empty()) continue;
         solid.box = bounds(solid.tree);
         solid.side = sidesOf(solid.tree);
         solid.blended = movesSurfaces(solid.tree) || std::ranges::any_of(solid.tree.branches, [](const Branch& b) { return b.blend > 0; });
+        const Grid* grid_before = before && solids_.size() < before->solids_.size() ? before->solids_[solids_.size()].grid.get() : nullptr;
+        if (solid.tree.leaves.size() > kMany) solid.grid = gridOf(solid.tree, Grid::Exact::everywhere, grid_before);
+        objects.push_back(i);
         solids_.push_back(std::move(solid));
     }
+    if (solids_.size() <= kMany) return;
+    const Tree all = makeTree(scene, [&](std::size_t i) { return std::ranges::binary_search(objects, i); });
+    if (all.program.empty()) return;  // too many leaves in all: each solid is asked
+    grid_ = gridOf(all, Grid::Exact::near_surfaces, before ? before->grid_.get() : nullptr);
+    for (const Leaf& leaf : all.leaves)
+        solid_of_.push_back(static_cast<std::size_t>(std::ranges::upper_bound(objects, leaf.index) - objects.begin() - 1));
+}
+
+/// Those that may have a surface within reach of the centre, in order.
+std::vector<std::size_t> StaticField::solidsNear(glm::dvec3 centre, double reach) const {
+    std::vector<std::size_t> near;
+    if (!grid_) {
+        for (std::size_t i = 0; i < solids_.size(); ++i) near.push_back(i);
+        return near;
+    }
+    for (const std::uint32_t leaf : grid_->leavesNear(centre, reach))
+        if (near.empty() || near.back() != solid_of_[leaf]) near.push_back(solid_of_[leaf]);
+    return near;
 }
 
 /// The search of one solid's points around one ball.
@@ -63,7 +94,7 @@ struct StaticField::Search {
     std::vector<Touch>& found;
     std::uint64_t& evaluations;
 
-    double field(glm::dvec3 p) const { return ++evaluations, distance<double>(solid.tree, {p.x, p.y, p.z}); }
+    double field(glm::dvec3 p) const { return ++evaluations, solid.grid ? solid.grid->distance(p) : distance<double>(solid.tree, {p.x, p.y, p.z}); }
 
     /// A shape less itself has a surface of no thickness. Behind a face there is solid; behind a sharp corner, where the
     /// line from the ball may pass it by, there is some towards the leaf's middle.
@@ -105,13 +136,17 @@ struct StaticField::Search {
     /// The leaves whose surface may be within reach, nearest first.
     std::vector<std::size_t> nearLeaves() const {
         std::vector<std::pair<double, std::size_t>> near;
-        for (std::size_t i = 0; i < solid.tree.leaves.size(); ++i) {
-            if (solid.side[i] == 0) continue;
+        const auto look = [&](std::size_t i) {
+            if (solid.side[i] == 0) return;
             const Leaf& leaf = solid.tree.leaves[i];
             const glm::dvec3 q = (c - leaf.position) * leaf.rotation;
             const double f = std::fabs(leaf.primitive->distance<double>({q.x, q.y, q.z}, leaf.numbers));
             if (f <= radius + margin) near.push_back({f, i});
-        }
+        };
+        if (solid.grid)
+            for (const std::uint32_t i : solid.grid->leavesNear(c, radius + margin)) look(i);
+        else
+            for (std::size_t i = 0; i < solid.tree.leaves.size(); ++i) look(i);
         ++evaluations;
         std::sort(near.begin(), near.end());  // no two are equal: the indices differ
         if (near.size() > kNearLeaves) near.resize(kNearLeaves);
@@ -181,9 +216,11 @@ struct StaticField::Search {
 
 double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out) const {
     out.clear();
-    double free = INFINITY;
+    // What the grid does not name has no surface within reach.
+    double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY;
     std::vector<Touch> found;
-    for (const Solid& solid : solids_) {
+    for (const std::size_t i : solidsNear(centre, radius + margin)) {
+        const Solid& solid = solids_[i];
         const double outside = distanceTo(solid.box, centre) - radius;
         if (outside > margin) {
             free = std::min(free, outside);

@@ -189,6 +189,18 @@ TEST_CASE("a click takes the whole object, a second one the part under it") {
     CHECK(editor.scene().objects[*findObject(editor.scene(), part)].parent == 0);
     CHECK_FALSE(editor.pick({200, 100}, {1, 1}));
     CHECK_FALSE(editor.pick({0, 0}, {0, 0}));
+
+    // The same through the picture's grid, and through one of another scene, which is not asked.
+    Grid grid;
+    grid.follow(makeTree(editor.scene()));
+    for (const Grid* drawn : {static_cast<const Grid*>(&grid), static_cast<const Grid*>(nullptr)}) {
+        editor.select({});
+        CHECK(editor.pick({200, 100}, {100, 50}, drawn) == whole);
+        CHECK_FALSE(editor.pick({200, 100}, {1, 1}, drawn));
+    }
+    grid.follow(Tree{});
+    editor.select({});
+    CHECK(editor.pick({200, 100}, {100, 50}, &grid) == whole);
 }
 
 TEST_CASE("time: play, pause, step, and a reset that gives the bits back") {

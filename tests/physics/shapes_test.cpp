@@ -180,3 +180,96 @@ TEST_CASE("a ball deep inside a solid comes out gently") {
         CHECK(fastest <= kPushOutSpeed + 0.5);
     }
 }
+
+namespace {
+
+/// Boxes and balls in a heap; `of_one` makes them one object.
+Scene heap(int n, bool of_one) {
+    Scene s;
+    Random random(17);
+    if (of_one) add(s, "union", {}, {0});
+    for (int i = 0; i < n; ++i) {
+        const glm::dvec3 at{random.in(-3, 3), random.in(-1, 1), random.in(-3, 3)};
+        const double size = random.in(0.1, 0.5);
+        const int parent = of_one ? 0 : kNoParent;
+        Object& o = i % 2 ? add(s, "box", at, {size, 0.7 * size, 1.2 * size, 0}, parent) : add(s, "sphere", at, {0.5 * size}, parent);
+        o.rot = {10.0 * i, 7.0 * i, 0};
+    }
+    return s;
+}
+/// The nearest gap, asked of a few objects at a time: too few for a grid.
+double gapOfAll(const Scene& s, glm::dvec3 c, double r) {
+    double least = INFINITY;
+    std::vector<std::string> notes;
+    std::vector<Touch> touches;
+    for (std::size_t from = 0; from < s.objects.size(); from += 20) {
+        const StaticField few(s, [from](std::size_t i) { return i >= from && i < from + 20; }, notes);
+        few.touches(c, r, 0.2, touches);
+        if (!touches.empty()) least = std::min(least, touches[0].gap);
+    }
+    return least;
+}
+
+}  // namespace
+
+TEST_CASE("many shapes are found through a grid as one by one") {
+    const Scene s = heap(150, false);
+    std::vector<std::string> notes;
+    const StaticField all(s, [](std::size_t) { return true; }, notes);
+    std::vector<Touch> touches;
+    Random random(18);
+    int touched = 0;
+    for (int i = 0; i < 600; ++i) {
+        const glm::dvec3 c{random.in(-4, 4), random.in(-2, 2), random.in(-4, 4)};
+        const double r = random.in(0.02, 0.4), truth = gapOfAll(s, c, r), free = all.touches(c, r, 0.2, touches);
+        touched += !touches.empty();
+        if (truth < 0.2) {
+            REQUIRE(!touches.empty());
+            CHECK(touches[0].gap == truth);
+        }
+        CHECK(free <= std::max(truth, 0.0) + (truth > 0.2 ? 1e9 : 0));
+    }
+    CHECK(touched > 100);
+    CHECK(touched < 590);
+}
+
+TEST_CASE("a shape of many leaves is found through a grid as shapes of one") {
+    const Scene many = heap(150, false), one = heap(150, true);
+    std::vector<std::string> notes;
+    const StaticField apart(many, [](std::size_t) { return true; }, notes), whole(one, [](std::size_t) { return true; }, notes);
+    std::vector<Touch> a, b;
+    Random random(19);
+    int touched = 0;
+    for (int i = 0; i < 600; ++i) {
+        const glm::dvec3 c{random.in(-4, 4), random.in(-2, 2), random.in(-4, 4)};
+        const double r = random.in(0.02, 0.4);
+        apart.touches(c, r, 0.2, a), whole.touches(c, r, 0.2, b);
+        // Apart, what lies inside another shape counts as a surface too.
+        if (b.empty() || b[0].gap < -r) continue;
+        ++touched;
+        REQUIRE(!a.empty());
+        CHECK(a[0].gap <= b[0].gap + 1e-9);
+    }
+    CHECK(touched > 100);
+}
+
+TEST_CASE("a grid of what does not move follows a change, and copies keep their own") {
+    Scene s = heap(150, false);
+    std::vector<std::string> notes;
+    const StaticField before(s, [](std::size_t) { return true; }, notes), copy = before;
+    const glm::dvec3 was = s.objects[40].pos, is = was + glm::dvec3{0.8, 0.4, 0};
+    s.objects[40].pos = is;
+    const StaticField after(s, [](std::size_t) { return true; }, notes, &before), anew(s, [](std::size_t) { return true; }, notes);
+    std::vector<Touch> a, b;
+    Random random(20);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 c = (i % 2 ? was : is) + glm::dvec3{random.in(-0.6, 0.6), random.in(-0.6, 0.6), random.in(-0.6, 0.6)};
+        after.touches(c, 0.1, 0.2, a), anew.touches(c, 0.1, 0.2, b);
+        REQUIRE(a.size() == b.size());
+        for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].point == b[k].point);
+    }
+    // What was is as it was.
+    before.touches(was + glm::dvec3{0, 0.35, 0}, 0.1, 0.2, a), copy.touches(was + glm::dvec3{0, 0.35, 0}, 0.1, 0.2, b);
+    REQUIRE(a.size() == b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].point == b[k].point);
+}

@@ -120,24 +120,37 @@ TEST_CASE("the ray of a pixel is the command line's formula") {
     CHECK(glm::length(cameraRay(camera, size, {1, 1}).direction) == doctest::Approx(1));
 }
 
-TEST_CASE("of thousands of objects a ray asks those it may meet, and finds what it finds among all") {
+TEST_CASE("through a grid a ray finds what it finds among all, whatever is near") {
     Draw draw(61);
     Scene many;
-    for (int i = 0; i < 3000; ++i)
+    addObject(many, "plane", {0, 1, 0, -4});
+    for (int i = 0; i < 1000; ++i)
         addObject(many, i % 2 == 0 ? "sphere" : "box", {0.05, 0.1, 0.07, 0}, {draw.uniform(-3, 3), draw.uniform(-3, 3), draw.uniform(-3, 3)});
+    for (int i = 0; i < 300; ++i) {
+        const int bitten = addObject(many, "subtract", {}, {draw.uniform(-3, 3), draw.uniform(-3, 3), draw.uniform(-3, 3)});
+        addObject(many, "box", {0.2, 0.2, 0.2}, {}, bitten), addObject(many, "sphere", {0.1}, {0.05, 0.05, 0.1}, bitten);
+    }
     const Tree tree = makeTree(many);
-    // The same as one part: nothing is left out.
-    Tree one = tree;
-    one.parts = {{0, static_cast<std::uint32_t>(tree.program.size())}};
-    int hits = 0;
-    for (int i = 0; i < times(60); ++i) {
-        const glm::dvec3 from{draw.uniform(-5, 5), draw.uniform(-5, 5), 5}, way{draw.uniform(-0.4, 0.4), draw.oneIn(3) ? 0 : draw.uniform(-0.4, 0.4), -1};
-        const RayEnd some = raycast(tree, from, way, 20), all = raycast(one, from, way, 20);
+    Grid grid;
+    grid.follow(tree);
+    CHECK(grid.follows(tree));
+    int hits = 0, misses = 0;
+    for (int i = 0; i < times(150); ++i) {
+        const glm::dvec3 from{draw.uniform(-5, 5), draw.uniform(-3, 5), draw.oneIn(4) ? 0 : 5}, way{draw.uniform(-0.4, 0.4), draw.oneIn(3) ? 0 : draw.uniform(-0.4, 0.4), -1};
+        const RayEnd some = raycast(grid, from, way, 20), all = raycast(tree, from, way, 20);
         CHECK(some.state == all.state);
+        misses += some.state == RayState::miss;
         if (some.state != RayState::hit) continue;
         ++hits;
         CHECK(std::fabs(some.t - all.t) < 1e-9);
         CHECK(some.index == all.index);
     }
     CHECK(hits > 10);
+    CHECK(misses > 10);
+
+    // A moved object is another tree.
+    many.objects[7].pos.x += 0.1;
+    CHECK_FALSE(grid.follows(makeTree(many)));
+    grid.follow(makeTree(many));
+    CHECK(grid.follows(makeTree(many)));
 }

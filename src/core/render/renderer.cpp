@@ -172,6 +172,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     ready.grid = tree.leaves.size() > straight;
     GridOnGpu& grid = variant == Variant::evaluate ? exact_ : marched_;
     grid_work_ = {};
+    if (variant != Variant::evaluate) through_grid_ = ready.grid;
     if (ready.grid) {
         grid_work_ = grid.grid.follow(tree);
         placeGrid(grid.grid, origin, ready.frame);

@@ -75,6 +75,7 @@ public:
     const Plan& plan() const { return plan_; }       // of the last scene drawn
     const std::string& rendererName() const { return name_; }
     const GridWork& gridWork() const { return grid_work_; }  // of the last scene drawn; nothing where it has no grid
+    const Grid* grid() const { return through_grid_ ? &marched_.grid : nullptr; }  // that the last picture was drawn through; null: none
     int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
 
 private:
@@ -109,6 +110,7 @@ private:
     };
     GridOnGpu marched_{Grid(), {}}, exact_{Grid(Grid::Exact::everywhere), {}};  // for pictures; for evaluate()
     GridWork grid_work_;
+    bool through_grid_ = false;
     Quad quad_;
     std::vector<OwnedBuffer> blocks_;
     Targets picture_, channels_;

@@ -58,6 +58,10 @@ bool Grid::sameTopology(const Tree& tree) const {
     return true;
 }
 
+bool Grid::follows(const Tree& tree) const {
+    return sameTopology(tree) && std::ranges::all_of(tree.parts, [&](const Tree::Part& part) { return samePart(tree_, tree, part); });
+}
+
 GridWork Grid::follow(const Tree& tree) {
     const auto from = std::chrono::steady_clock::now();
     GridWork work;
@@ -230,41 +234,6 @@ PartList Grid::near(const std::vector<char>& dirty, const GridBuilder& builder, 
         list.parts.push_back({begin, static_cast<std::uint32_t>(list.tape.size())});
     }
     return list;
-}
-
-Grid::Place Grid::find(glm::dvec3 p) const {
-    const glm::dvec3 at = (p - corner_) / size_;
-    const glm::ivec3 i(glm::floor(at));
-    if (!(at.x >= 0 && at.y >= 0 && at.z >= 0) || i.x >= dims_.x || i.y >= dims_.y || i.z >= dims_.z) return {nullptr, p};
-    const GridCell& coarse = cells_[static_cast<std::size_t>((i.z * dims_.y + i.y) * dims_.x + i.x)];
-    if (coarse.kind != GridCell::Kind::brick) return {&coarse, corner_ + size_ * (glm::dvec3(i) + 0.5)};
-    const glm::ivec3 k = glm::clamp(glm::ivec3(glm::floor((at - glm::dvec3(i)) * double{kBrick})), 0, kBrick - 1);
-    const std::uint32_t inner = static_cast<std::uint32_t>((k.z * kBrick + k.y) * kBrick + k.x);
-    return {&cells_[coarse.first + inner], corner_ + size_ * (glm::dvec3(i) + (glm::dvec3(k) + 0.5) / double{kBrick})};
-}
-
-std::span<const Instruction> Grid::tapeAt(glm::dvec3 p) const {
-    const Place place = find(p);
-    const GridCell& cell = place.cell ? *place.cell : outer_;
-    if (cell.kind != GridCell::Kind::list) return {};
-    return std::span(tape_).subspan(cell.tape_first, cell.tape_count);
-}
-
-double Grid::distance(glm::dvec3 p) const {
-    const Place place = find(p);
-    if (place.cell && place.cell->kind == GridCell::Kind::far) return static_cast<double>(place.cell->safe) - glm::length(p - place.centre);
-    const double d = mb::distance<double>(tree_, tapeAt(p), {p.x, p.y, p.z});
-    return place.cell || exact_ == Exact::everywhere ? d : std::min(d, dims_.x > 0 ? distanceTo(box_, p) : kEmptyDistance);
-}
-
-double distanceTo(const Box& box, glm::dvec3 p) {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const double d = std::max({box.lo[k] - p[i], p[i] - box.hi[k], 0.0});
-        sum += d * d;
-    }
-    return std::sqrt(sum);
 }
 
 }  // namespace mb

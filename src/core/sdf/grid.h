@@ -64,10 +64,15 @@ public:
     /// have changed. On as many threads as the machine has; the same cells, whatever their number.
     GridWork follow(const Tree& tree);
 
+    /// Whether this is the grid of just that tree.
+    bool follows(const Tree& tree) const;
+
     /// The tree's distance, or where its cell is far, a lower bound of it that is positive.
     double distance(glm::dvec3 p) const;
     /// The tape of the cell that p lies in; of a far cell, nothing.
     std::span<const Instruction> tapeAt(glm::dvec3 p) const;
+    /// The leaves, in order, that the cells within `reach` of p along each axis ask: each whose surface the whole has there is among them.
+    std::vector<std::uint32_t> leavesNear(glm::dvec3 p, double reach) const;
     const Tree& tree() const { return tree_; }
     Exact exact() const { return exact_; }
 
@@ -94,6 +99,7 @@ private:
     PartList near(const std::vector<char>& dirty, const GridBuilder& builder, GridWork& io_work) const;
     GridWork update(const std::vector<std::uint32_t>& parts, const Tree& before);
     Place find(glm::dvec3 p) const;
+    std::span<const Instruction> listOf(const GridCell& cell) const;
 
     Exact exact_;
     Tree tree_;

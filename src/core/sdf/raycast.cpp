@@ -1,7 +1,5 @@
 #include "core/sdf/raycast.h"
 
-#include "core/sdf/prune.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,9 +14,10 @@ constexpr double kClose = 1e-5;       // of the distance travelled: nearer, sing
 constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kNarrowingSteps = 100;
 
+/// The field along the ray: all of a tree, or what a grid keeps of it where the ray is.
 struct Marcher {
     const Tree& tree;
-    std::span<const Instruction> tape;
+    const Grid* grid;
     glm::dvec3 origin, direction;
     int evaluations = 0;
 
@@ -26,7 +25,12 @@ struct Marcher {
     double operator()(double t) {
         ++evaluations;
         const glm::dvec3 p = at(t);
-        return distance<double>(tree, tape, {p.x, p.y, p.z});
+        return grid ? grid->distance(p) : distance<double>(tree, {p.x, p.y, p.z});
+    }
+    int leafAt(double t) const {
+        const glm::dvec3 p = at(t);
+        const std::span<const Instruction> tape = grid ? grid->tapeAt(p) : std::span<const Instruction>(tree.program);
+        return nearest<double>(tree, tape.empty() ? tree.program : tape, {p.x, p.y, p.z}).leaf;
     }
 };
 
@@ -43,57 +47,20 @@ double narrow(Marcher& march, double side, double lo, double hi) {
     return hi;
 }
 
-constexpr std::size_t kManyParts = 64;  // fewer are asked all
-
-/// Whether the line ahead of the origin meets the box, grown a little for rounding (Kay and Kajiya, "Ray Tracing Complex
-/// Scenes", 1986: slabs).
-bool meets(const Box& box, glm::dvec3 origin, glm::dvec3 direction) {
-    double from = 0, to = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const double slack = 1e-9 * (1 + std::fabs(origin[i])), lo = box.lo[k] - slack - origin[i], hi = box.hi[k] + slack - origin[i];
-        if (direction[i] == 0) {
-            if (lo > 0 || hi < 0) return false;
-            continue;
-        }
-        const double a = lo / direction[i], b = hi / direction[i];
-        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
-    }
-    return from <= to;
-}
-
-/// Of a tree of many parts, those whose boxes the ray meets: it can meet no other.
-Tape partsAhead(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction) {
-    PartList list;
-    for (const Tree::Part& part : tree.parts) {
-        const std::span<const Instruction> tape = std::span(tree.program).subspan(part.begin, part.end - part.begin);
-        if (!meets(bounds(tree, tape), origin, direction)) continue;
-        const auto begin = static_cast<std::uint32_t>(list.tape.size());
-        list.tape.insert(list.tape.end(), tape.begin(), tape.end());
-        list.parts.push_back({begin, static_cast<std::uint32_t>(list.tape.size())});
-    }
-    return joined(list);
-}
-
 bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-}  // namespace
-
-RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double max_distance) {
+RayEnd follow(const Tree& tree, const Grid* grid, glm::dvec3 origin, glm::dvec3 direction, double max_distance) {
     RayEnd end;
     const double length = glm::length(direction);
     if (!finite(origin) || !std::isfinite(length) || length == 0 || !(max_distance >= 0)) return end;
     if (tree.program.empty()) return end.state = RayState::miss, end.t = max_distance, end.closest = kEmptyDistance, end;
 
-    const bool many = tree.parts.size() > kManyParts;
-    const Tape ahead = many ? partsAhead(tree, origin, direction / length) : Tape{};
-    if (many && ahead.empty()) end.state = RayState::miss, end.t = max_distance, end.closest = kEmptyDistance;
-    Marcher march{tree, many ? ahead : tree.program, origin, direction / length};
+    Marcher march{tree, grid, origin, direction / length};
     const double reach = glm::length(origin);
     double side = 1, t = 0, before = 0, f_before = 0;
     bool proved = true, on_surface = false;
-    if (!many || !ahead.empty()) end.closest = std::numeric_limits<double>::infinity();
-    while (end.state != RayState::miss && march.evaluations < kBudget) {
+    end.closest = std::numeric_limits<double>::infinity();
+    while (march.evaluations < kBudget) {
         double f = side * march(t);
         if (std::isnan(f)) break;
         const double noise = kNoise * (reach + t);
@@ -117,11 +84,19 @@ RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double
         before = t, f_before = std::max(f, 0.0);
         t += std::max(f, std::max(kClose * t, 4 * kNoise * (reach + 1)));
     }
-    const glm::dvec3 p = march.at(end.t);
-    end.leaf = nearest<double>(tree, {p.x, p.y, p.z}).leaf;
+    end.leaf = march.leafAt(end.t);
     if (end.leaf >= 0) end.index = tree.leaves[static_cast<std::size_t>(end.leaf)].index;
     end.evaluations = march.evaluations;
     return end;
+}
+
+}  // namespace
+
+RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double max_distance) {
+    return follow(tree, nullptr, origin, direction, max_distance);
+}
+RayEnd raycast(const Grid& grid, glm::dvec3 origin, glm::dvec3 direction, double max_distance) {
+    return follow(grid.tree(), &grid, origin, direction, max_distance);
 }
 
 }  // namespace mb

@@ -1,7 +1,7 @@
 #pragma once
-// A ray against a tree, in double: what the shader's march finds, for picking and for tests. Three outcomes, as there: a
+// A ray against a tree or its grid, in double: what the shader's march finds, for picking and for tests. Three outcomes, as there: a
 // hit is a change of sign, a miss is proved by spheres of emptiness that overlap all the way, all else is undecided.
-#include "core/sdf/tree.h"
+#include "core/sdf/grid.h"
 
 namespace mb {
 
@@ -19,5 +19,8 @@ struct RayEnd {
 /// Follows the ray as far as max_distance. The direction may have any length but 0; a ray with a part that is not finite
 /// is undecided. One that starts inside a solid meets its inside.
 RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double max_distance);
+/// The same through a grid of the tree: a few primitives a step, however many there are. The closest approach of a ray that
+/// did not hit may be a bound.
+RayEnd raycast(const Grid& grid, glm::dvec3 origin, glm::dvec3 direction, double max_distance);
 
 }  // namespace mb

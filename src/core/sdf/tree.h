@@ -68,6 +68,8 @@ template <class R> struct Nearest {
 
 /// The objects `wanted` says yes to (asked by index, top level only), less the hidden ones, as one tree: their union.
 Tree makeTree(const Scene& scene, const std::function<bool(std::size_t)>& wanted = {});
+/// Of one top-level object alone.
+Tree makeTreeOf(const Scene& scene, std::size_t object);
 
 /// The signed distance bound of the tree at p, for R = float, double, sdf::Dual or sdf::Interval: never more than the
 /// distance to the nearest surface, negative inside. No two points' values differ by more than the points' distance.

@@ -176,14 +176,28 @@ struct Builder {
 
 }  // namespace
 
+namespace {
+
+Tree orRefused(Tree tree) {
+    if (tree.fault.empty()) return tree;
+    Tree refused;
+    refused.fault = std::move(tree.fault), refused.fault_object = tree.fault_object;
+    return refused;
+}
+
+}  // namespace
+
 Tree makeTree(const Scene& scene, const std::function<bool(std::size_t)>& wanted) {
     Builder builder{scene, {}};
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i), ++builder.object)
         if (!wanted || wanted(i)) builder.add(i, {});
-    if (builder.tree.fault.empty()) return std::move(builder.tree);
-    Tree refused;
-    refused.fault = std::move(builder.tree.fault), refused.fault_object = builder.tree.fault_object;
-    return refused;
+    return orRefused(std::move(builder.tree));
+}
+
+Tree makeTreeOf(const Scene& scene, std::size_t object) {
+    Builder builder{scene, {}};
+    builder.add(object, {});
+    return orRefused(std::move(builder.tree));
 }
 
 }  // namespace mb
