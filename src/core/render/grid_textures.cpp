@@ -115,7 +115,9 @@ void GridTextures::bind(const Program& program) const {
 void placeGrid(const Grid& grid, glm::dvec3 origin, GpuFrame& frame) {
     const auto relative = [&](const std::array<double, 3>& p) { return glm::vec4(glm::vec3(glm::dvec3(p[0], p[1], p[2]) - origin), 0); };
     const bool any = grid.dims().x > 0 && grid.exact() == Grid::Exact::near_surfaces;
-    frame.grid_corner = glm::vec4(glm::vec3(grid.corner() - origin), static_cast<float>(grid.cellSize()));
+    // Of a grid without cells every point lies outside.
+    frame.grid_corner = grid.dims().x > 0 ? glm::vec4(glm::vec3(grid.corner() - origin), static_cast<float>(grid.cellSize()))
+                                          : glm::vec4(glm::vec3(static_cast<float>(kEmptyDistance)), 1);
     frame.box_lo = any ? relative(grid.box().lo) : glm::vec4(static_cast<float>(kEmptyDistance));
     frame.box_hi = any ? relative(grid.box().hi) : glm::vec4(static_cast<float>(kEmptyDistance));
     frame.grid_size = {grid.dims(), static_cast<int>(grid.outer().count)};
