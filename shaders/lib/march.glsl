@@ -155,12 +155,12 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             bool left_surface = a.steps == 1 && a.on_surface;
             float close = care * closeAt(ray.travelled + a.t);
             if (a.steps > 0 && !left_surface && a.reach + f < step + noise) a.doubtful = true;
-            if (a.doubtful && f >= close) a.proved = false;
             a.touched = a.touched || (f <= noise && a.steps > 0);
             if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
             a.before = a.t;
             a.f_before = max(f, 0.0);
             a.reach = max(a.f_before, march.side * found.y - 2.0 * noise);
+            if (a.doubtful && a.reach >= close) a.proved = false;  // it goes on past that surface
             if (a.t + a.reach >= far) {
                 decided = a.proved && !a.doubtful && !a.touched;
                 ended = true;
