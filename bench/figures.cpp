@@ -9,6 +9,7 @@ namespace {
 constexpr Figure kFigures[] = {
     {"seed", "time against the shader marchbox began from, which asks every object at every step", seedFigure},
     {"growth", "time against that of 100 primitives", growthFigure},
+    {"moved", "what one moved body of 10,000 costs, of a frame", movedFigure},
     {"counts", "evaluations and primitives a pixel, and the march against the least possible; the same on every machine", countsFigure},
     {"povray", "time against POV-Ray, which meets the same solids by their equations", povrayFigure},
 };

@@ -17,6 +17,7 @@ void run(Bench& bench);
 
 void seedFigure(Bench&);
 void growthFigure(Bench&);
+void movedFigure(Bench&);
 void countsFigure(Bench&);
 void povrayFigure(Bench&);
 

@@ -1,4 +1,5 @@
 #version 330 core
+#extension GL_ARB_gpu_shader5 : enable
 // The scene's own functions at points read from a texture: what `marchbox eval --on gpu` and the tests ask.
 
 #include "sdf/dialect.glsl"

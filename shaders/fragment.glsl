@@ -1,4 +1,5 @@
 #version 330 core
+#extension GL_ARB_gpu_shader5 : enable
 // One pixel of the picture: send a ray, march it, shade what it meets, follow its reflection.
 //
 // The program writes above this text what the scene calls for (EFFECT_… definitions and array sizes), and in place of

@@ -132,12 +132,12 @@ void advance(Ray ray, float far, inout Along a, inout March march, float f, vec3
     bool left_surface = a.steps == 1 && a.on_surface;
     float close = closeTo(ray, a, a.t);
     if (a.steps > 0 && !left_surface && a.reach + f < a.t - a.before + a.noise) a.doubtful = true;
-    if (a.doubtful && f >= close) a.proved = false;
     a.touched = a.touched || (f <= a.noise && a.steps > 0);
     if (f < march.closest) { march.closest = f; march.t = a.t; march.leaf = leaf; }
     a.before = a.t;
     a.f_before = max(f, 0.0);
     a.reach = max(a.f_before, march.side * found.y - 2.0 * a.noise);
+    if (a.doubtful && a.reach >= close) a.proved = false;  // it goes on past that surface
     a.ended = a.t + a.reach >= far;
     a.decided = a.ended && a.proved && !a.doubtful && !a.touched;
 

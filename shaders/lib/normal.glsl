@@ -39,7 +39,7 @@ vec3 leafNormal(vec3 at, Node node, float h, vec3 direction) {
     for (int i = 0; i < 6; ++i) {
         int axis = i >> 1;
         vec3 along = vec3(axis == 0, axis == 1, axis == 2) * ((i & 1) == 0 ? 1.0 : -1.0);
-        gradient += along * leafDistance(code, at + along * h, node);
+        gradient += along * leafDistance(code, at + along * h, at + along * h, node);
     }
     touches += 6;
     count(NORMAL, 0);

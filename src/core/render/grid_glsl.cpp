@@ -43,9 +43,10 @@ template <class Call> std::string chooser(std::string_view head, std::string_vie
 
 std::string choosers(const Used& used) {
     const auto wrapNumbers = [](const Operator& o) { return numbersOf("node", o.parameters, o.wrapNumbers()); };
-    std::string text = chooser("float leafDistance(int code, vec3 at, Node node)", "float result = EMPTY", "code", used.leaves, 0, [](std::size_t row) {
+    // What no rotation changes is asked at `unturned`, as straight-line code asks it.
+    std::string text = chooser("float leafDistance(int code, vec3 at, vec3 unturned, Node node)", "float result = EMPTY", "code", used.leaves, 0, [](std::size_t row) {
         const Primitive& p = primitives()[row];
-        return fmt::format("{}(at{})", p.glsl, numbersOf("node", p.parameters, p.leafNumbers()));
+        return fmt::format("{}({}{})", p.glsl, p.turns ? "at" : "unturned", numbersOf("node", p.parameters, p.leafNumbers()));
     });
     text += chooser("Ahead leafAhead(int code, vec3 o, vec3 d, Node node)", "Ahead result = UNKNOWN_AHEAD", "code", used.leaves, 0, [](std::size_t row) {
         const Primitive& p = primitives()[row];
@@ -80,15 +81,15 @@ struct Flavour {
     bool looks_ahead = false;
     int spaces = 1;  // within one another, at most
 };
-constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", "leafDistance(item.code, at, node)", "min(top, value)", "foldDistances(item.how, top, value, k)",
+constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", "leafDistance(item.code, at, q - node.position.xyz, node)", "min(top, value)", "foldDistances(item.how, top, value, k)",
                        "top = wrapDistance(item.code, top, at, node)", "min(top, cell.safe)"};
 constexpr std::string_view kAheadHead = "float lookAhead(vec3 p, vec3 d, Cell cell, out int leaf, out Ahead ahead)";
 constexpr Flavour kAhead{"float", kAheadHead, kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap, kMap.result, true};
 /// Where every surface is one leaf's own, the march keeps whose.
-constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(leafDistance(item.code, at, node), item.record)", "nearer(top, value)",
+constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(leafDistance(item.code, at, q - node.position.xyz, node), item.record)", "nearer(top, value)",
                         "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
                         "", "min(top.distance, cell.safe)", true};
-constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(leafDistance(item.code, at, node), item.record, at)",
+constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(leafDistance(item.code, at, q - node.position.xyz, node), item.record, at)",
                            "nearer(top, value)",
                            "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
                            "top.distance = wrapDistance(item.code, top.distance, at, node)", "nearer(top, foundLeaf(cell.safe, -1, p))"};

@@ -54,7 +54,8 @@ struct Writer {
     void enter(std::size_t i) {
         const Branch& branch = tree.branches[i];
         const std::string record = fmt::format("branch{}", i);
-        const std::string line = fmt::format("    vec3 p{} = {}(local({}, {}){});\n", i, branch.op->warp, points.back(), record,
+        // Else the driver may regroup the sum that the leaf's place is next taken from.
+        const std::string line = fmt::format("    AS_WRITTEN vec3 p{} = {}(local({}, {}){});\n", i, branch.op->warp, points.back(), record,
                                              numbersOf(record, branch.op->parameters, branch.op->wrapNumbers()));
         map += line, find += line;
         points.push_back(fmt::format("p{}", i));
