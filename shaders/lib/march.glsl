@@ -195,6 +195,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             Cell cell;
             if (!skip(ray, far, !a.bracketed && march.side > 0.0, a, cell)) continue;
             if (a.ended) break;
+            tie = a.noise;  // of whose the surface is
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
 #else
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);

@@ -22,6 +22,7 @@ Surface surfaceAt(Ray ray, March march) {
     s.object = march.leaf < 0 ? -1.0 : node.x_axis.w;
 #else
     s.normal = normalAt(s.position, s.travelled, march.side, ray.direction);
+    tie = noiseAt(s.travelled);
     Nearest found = nearest(s.position);
     count(NORMAL, 1);
     Look look = lookOf(found);

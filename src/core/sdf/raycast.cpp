@@ -15,6 +15,7 @@ constexpr int kBudget = 4096;         // evaluations
 constexpr double kClose = 1e-5;       // of the distance travelled: nearer, single distances are not trusted
 constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kNarrowingSteps = 100;
+constexpr double kTie = 1e-9;         // of the distance from the origin: surfaces nearer to one another are one, the first's
 
 struct Marcher {
     const Tree& tree;
@@ -118,7 +119,7 @@ RayEnd raycast(const Tree& tree, glm::dvec3 origin, glm::dvec3 direction, double
         t += std::max(f, std::max(kClose * t, 4 * kNoise * (reach + 1)));
     }
     const glm::dvec3 p = march.at(end.t);
-    end.leaf = nearest<double>(tree, {p.x, p.y, p.z}).leaf;
+    end.leaf = nearest<double>(tree, {p.x, p.y, p.z}, kTie * (reach + end.t)).leaf;
     if (end.leaf >= 0) end.index = tree.leaves[static_cast<std::size_t>(end.leaf)].index;
     end.evaluations = march.evaluations;
     return end;

@@ -85,6 +85,7 @@ template <template <class> class Signature> struct ForScalars {
     explicit operator bool() const { return f64 != nullptr; }
 };
 template <class R> using FoldFunction = R (*)(R a, R b, double k);
+template <class R> using ShareFunction = R (*)(R a, R b, double k, double tie);
 template <class R> using WrapFunction = R (*)(R d, sdf::Vec3<R> p, const double* k);
 template <class R> using WarpFunction = sdf::Vec3<R> (*)(sdf::Vec3<R> p, const double* k);
 
@@ -108,7 +109,8 @@ struct Operator : ShapeType {
     bool intersects = false;                   // the result lies within every child (plus the blend)
     bool blends = false;                       // its first parameter is a blend: at 0 it is the plain operator
     bool takes_point = false;                  // the wrap's function asks where it is
-    ForScalars<FoldFunction> fold_by, share_by;
+    ForScalars<FoldFunction> fold_by;
+    ForScalars<ShareFunction> share_by;
     ForScalars<WrapFunction> wrap_by;
     ForScalars<WarpFunction> warp_by;
     void (*cook)(LeafNumbers&, const Box& child) = nullptr;  // of a wrap: the GLSL's numbers from the scaled ones of the file
@@ -119,8 +121,8 @@ struct Operator : ShapeType {
     Copy (*copy)(const Numbers&, std::size_t) = nullptr;     // the one of that number
 
     template <class R> R fold(R a, R b, double k) const { return fold_by.of<R>()(a, b, k); }
-    /// From 0, the first child alone, to 1, the second alone.
-    template <class R> R shareOfSecond(R a, R b, double k) const { return share_by.of<R>()(a, b, k); }
+    /// From 0, the first child alone, to 1, the second alone; the first where they differ by no more than `tie`, a blend apart.
+    template <class R> R shareOfSecond(R a, R b, double k, double tie = 0) const { return share_by.of<R>()(a, b, k, tie); }
     template <class R> R wrap(R d, sdf::Vec3<R> p, const LeafNumbers& k) const { return wrap_by.of<R>()(d, p, k.data()); }
     template <class R> sdf::Vec3<R> warped(sdf::Vec3<R> p, const LeafNumbers& k) const { return warp_by.of<R>()(p, k.data()); }
     /// How many numbers the wrap's GLSL functions take.
