@@ -216,7 +216,8 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
 March marchRay(Ray ray, float far, int budget) { return marchWith(ray, far, budget, true); }
 March marchShadow(Ray ray, float far, int budget) { return marchWith(ray, far, budget, false); }
 
-// An undecided ray is painted as the surface it all but touched, or as the background. Either way it is counted.
+// An undecided ray is painted as the surface it all but touched if that is a solid's (hasInside() in lib/material.glsl), else
+// as the background. Either way it is counted.
 bool looksLikeSurface(March march) {
     float pixel = frame.right.w != 0.0 ? frame.forward.w : frame.forward.w * march.t;
     return march.closest < pixel;

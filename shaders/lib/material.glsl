@@ -37,6 +37,33 @@ Surface surfaceAt(Ray ray, March march) {
     return s;
 }
 
+// Whether there is any solid at the surface an undecided ray came near. What is only joined has an inside wherever it has a
+// surface; of a shape less itself the distance falls to 0 and rises again. Looked for across the surface, to one side of the
+// ray and then to the other, by secants (a bound falls short of the way to go) and in steps that grow from below the rounding
+// error, so that a thin sheet is not passed.
+#ifdef CARVED
+const int PROBES = 8;  // to each side
+bool hasInside(Surface s, March march) {
+    float f = march.closest, depth = 0.0, rate = 1.0;
+    int asked = 0;
+    for (int i = 0; i < 2 * PROBES; ++i) {
+        if (march.state == HIT || f < 0.0) break;
+        if (i == PROBES) { f = march.closest; depth = 0.0; rate = 1.0; }
+        float step = max(f / rate, 0.125 * noiseAt(s.travelled) * exp2(float(i % PROBES)));
+        depth += step;
+        float next = march.side * map(s.position + s.normal * (i < PROBES ? -depth : depth));
+        rate = (f - next) / step;
+        if (rate < 0.0625) rate = 1.0;  // it rises, or hardly falls
+        f = next;
+        ++asked;
+    }
+    count(NORMAL, asked);
+    return march.state == HIT || f < 0.0;
+}
+#else
+bool hasInside(Surface s, March march) { return true; }
+#endif
+
 const float LEAST_WEIGHT = 1.0 / 512.0;  // a reflection fainter than half a step of an 8-bit picture is not followed
 
 // The reflected ray starts on its own line, as far along it as brings it a bias away from the surface: a start moved along
