@@ -43,13 +43,17 @@ void main() {
         March march = marchRay(ray, frame.reach.y, marchSteps());
         countMarch(bounce, march);
         bool seen = march.state == HIT || (march.state == UNDECIDED && looksLikeSurface(march));
+        Surface surface;
+        if (seen) {
+            surface = surfaceAt(ray, march);
+            seen = hasInside(surface, march, ray.direction);
+        }
         if (!seen) {
             if (bounce == 0) keepPrimary(march, vec3(0.0), -1.0);
             color += weight * background();
             break;
         }
 
-        Surface surface = surfaceAt(ray, march);
         if (bounce == 0) keepPrimary(march, surface.normal, surface.object);
         color += weight * phong(surface, ray.direction);
         weight *= surface.reflectance;

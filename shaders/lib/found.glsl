@@ -44,21 +44,24 @@ Nearest foundLeaf(float distance, int leaf, vec3 at) {
     return Nearest(distance, leaf, at);
 #endif
 }
+
+// Of values that differ by no more than this, which is rounding, the first is nearer: faces that lie in one plane are computed
+// from other centres. Set where a ray arrives.
+float tie = 0.0;
+
 // The same for a march: no more than whose the surface is.
 struct Lead {
     float distance;
     int leaf;
 };
-Lead nearer(Lead a, Lead b) {
-    if (b.distance < a.distance) return b;
-    return a;
-}
+Lead nearer(Lead a, Lead b) { return Lead(min(a.distance, b.distance), b.distance < a.distance - tie ? b.leaf : a.leaf); }
 Lead foundBoth(float distance, float share, Lead a, Lead b) { return Lead(distance, share > 0.5 ? b.leaf : a.leaf); }
 
-// The nearer of two, the first of equals.
 Nearest nearer(Nearest a, Nearest b) {
-    if (b.distance < a.distance) return b;
-    return a;
+    Nearest first = a;
+    if (b.distance < a.distance - tie) first = b;
+    first.distance = min(a.distance, b.distance);
+    return first;
 }
 // Two under an operator: its value, and how much of the second shows.
 Nearest foundBoth(float distance, float share, Nearest a, Nearest b) {

@@ -195,6 +195,7 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
             Cell cell;
             if (!skip(ray, far, !a.bracketed && march.side > 0.0, a, cell)) continue;
             if (a.ended) break;
+            tie = a.noise;  // of whose the surface is
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, cell, leaf);
 #else
             vec3 found = mapAhead(ray.origin + ray.direction * a.t, ray.direction, leaf);
@@ -215,7 +216,8 @@ March marchWith(Ray ray, float far, int budget, bool narrows) {
 March marchRay(Ray ray, float far, int budget) { return marchWith(ray, far, budget, true); }
 March marchShadow(Ray ray, float far, int budget) { return marchWith(ray, far, budget, false); }
 
-// An undecided ray is painted as the surface it all but touched, or as the background. Either way it is counted.
+// An undecided ray is painted as the surface it all but touched if that is a solid's (hasInside() in lib/material.glsl), else
+// as the background. Either way it is counted.
 bool looksLikeSurface(March march) {
     float pixel = frame.right.w != 0.0 ? frame.forward.w : frame.forward.w * march.t;
     return march.closest < pixel;

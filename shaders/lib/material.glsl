@@ -22,6 +22,7 @@ Surface surfaceAt(Ray ray, March march) {
     s.object = march.leaf < 0 ? -1.0 : node.x_axis.w;
 #else
     s.normal = normalAt(s.position, s.travelled, march.side, ray.direction);
+    tie = noiseAt(s.travelled);
     Nearest found = nearest(s.position);
     count(NORMAL, 1);
     Look look = lookOf(found);
@@ -35,6 +36,33 @@ Surface surfaceAt(Ray ray, March march) {
     s.shininess = look.phong.w;
     return s;
 }
+
+// Whether there is any solid at the surface an undecided ray came near. What is only joined has an inside wherever it has a
+// surface; of a shape less itself the distance falls to 0 and rises again. Looked for across the surface, to one side and to
+// the other, and along the ray (a thin wall seen from behind has a normal that lies across it): by secants, since a bound falls
+// short of the way to go, and in steps that grow from below the rounding error, so that a thin sheet is not passed.
+#ifdef CARVED
+const int PROBES = 8;  // each way
+bool hasInside(Surface s, March march, vec3 direction) {
+    float f = march.closest, depth = 0.0, rate = 1.0;
+    int asked = 0;
+    for (int i = 0; i < 4 * PROBES; ++i) {
+        if (march.state == HIT || f < 0.0) break;
+        if (i % PROBES == 0) { f = march.closest; depth = 0.0; rate = 1.0; }
+        float step = max(f / rate, 0.125 * noiseAt(s.travelled) * exp2(float(i % PROBES)));
+        depth += step;
+        float next = march.side * map(s.position + (i < 2 * PROBES ? s.normal : direction) * ((i / PROBES) % 2 == 0 ? -depth : depth));
+        rate = (f - next) / step;
+        if (rate < 0.0625) rate = 1.0;  // it rises, or hardly falls
+        f = next;
+        ++asked;
+    }
+    count(NORMAL, asked);
+    return march.state == HIT || f < 0.0;
+}
+#else
+bool hasInside(Surface s, March march, vec3 direction) { return true; }
+#endif
 
 const float LEAST_WEIGHT = 1.0 / 512.0;  // a reflection fainter than half a step of an 8-bit picture is not followed
 

@@ -16,12 +16,16 @@ real opSubtract(real a, real b, real blend) { return max(a, -b) + opBlend(a, -b,
 real opMorph(real a, real b, real t) { return a * (1.0f - t) + b * t; }
 
 // How much of the second child's surface shows, from 0 to 1: the value's derivative by it. Where the share is 0 or 1 the
-// value is one child's alone. `lead` is how far the second is ahead of the first.
-real shareOf(real lead, real blend) { return min(max(0.5f + lead / (2.0f * max(blend, 1e-30f)), 0.0f), 1.0f); }
-real shareUnion(real a, real b, real blend) { return shareOf(a - b, blend); }
-real shareIntersect(real a, real b, real blend) { return shareOf(b - a, blend); }
-real shareSubtract(real a, real b, real blend) { return shareOf(-b - a, blend); }
-real shareMorph(real a, real b, real t) { return t; }
+// value is one child's alone. `lead` is how far the second is ahead of the first; without a
+// blend to speak of, it must be ahead by more than `tie`.
+real shareOf(real lead, real blend, real tie) {
+    real ahead = pick(tie - blend, lead, lead - tie);
+    return min(max(0.5f + ahead / (2.0f * max(blend, 1e-30f)), 0.0f), 1.0f);
+}
+real shareUnion(real a, real b, real blend, real tie) { return shareOf(a - b, blend, tie); }
+real shareIntersect(real a, real b, real blend, real tie) { return shareOf(b - a, blend, tie); }
+real shareSubtract(real a, real b, real blend, real tie) { return shareOf(-b - a, blend, tie); }
+real shareMorph(real a, real b, real t, real tie) { return t; }
 
 // Where a ray may be inside the whole, and where it is for certain, from its children's spans (primitives.glsl: outer and
 // inner ones) where nothing is blended. Of what would be two pieces the outer span is both and what lies between, the inner

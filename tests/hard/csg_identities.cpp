@@ -84,6 +84,35 @@ TEST_CASE("case 24: a ball less itself, or less one a micrometre larger, is hit 
     }
 }
 
+TEST_CASE("case 24: what is less itself is not painted either; a thin wall is") {
+    HeadlessRenderer headless;
+    const auto add = [](Scene& s, bool ball, double radius, int parent) {
+        if (ball) addObject(s, "sphere", {radius}, {}, parent);
+        else addObject(s, "box", {2 * radius, 2 * radius, 2 * radius, 0}, {}, parent);
+        s.objects.back().rot = {20, 30, 0};
+    };
+    const auto paintedBy = [&](const Scene& s, glm::dvec3 eye) {
+        std::size_t painted = 0;
+        for (const glm::vec3& c : headless.draw(s, cameraAt(eye, {0, 0, 0}, 60), kSize)) painted += c.x > 0;
+        return painted;
+    };
+    for (const Evaluation way : {Evaluation::straight, Evaluation::grid})
+        for (const bool ball : {true, false})
+            for (const double wall : {0.0, -1e-6, 2e-5, 1e-4}) {  // twice the rounding error of 20 m, or none
+                headless.renderer->setEvaluation(way);
+                Scene whole, hollow;
+                const int o = addObject(hollow, "subtract", {});
+                add(whole, ball, 1, kNoParent), add(hollow, ball, 1, o), add(hollow, ball, 1 - wall, o);
+                paint(whole, plain({1, 1, 1})), paint(hollow, plain({1, 1, 1}));
+                std::size_t seen = 0, undecided = 0, solid = 0;
+                for (const glm::dvec3 eye : {glm::dvec3{0.3, 0.5, 3}, glm::dvec3{20, 3, 1}, glm::dvec3{0.1, 0.2, 0.1}})
+                    seen += paintedBy(hollow, eye), undecided += headless.renderer->countUndecided(), solid += paintedBy(whole, eye);
+                MESSAGE(std::string(way == Evaluation::grid ? "through the grid, " : "") << std::string(ball ? "a ball" : "a box") << " with a wall of " << wall
+                        << " m: " << seen << " pixels painted, " << solid << " of the whole, " << undecided << " undecided");
+                CHECK(seen == (wall > 0 ? solid : 0));
+            }
+}
+
 TEST_CASE("case 25: what two distant balls share is nothing, and soon known") {
     HeadlessRenderer headless;
     Scene s;

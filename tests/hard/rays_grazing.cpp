@@ -86,7 +86,7 @@ TEST_CASE("case 2: the driver's loop limit is above what any pass is planned to 
     CHECK(reached > static_cast<float>(kLoopBudget));
 }
 
-TEST_CASE("case 2: many primitives leave a flat ray where it is, or are refused") {
+TEST_CASE("case 2: many primitives leave a flat ray where it is") {
     HeadlessRenderer headless;
     const double a = glm::radians(2.0);
     std::vector<int> counts{16, 128, 256, 1024, 4096};
@@ -96,11 +96,7 @@ TEST_CASE("case 2: many primitives leave a flat ray where it is, or are refused"
         Scene s = floorScene();
         for (int i = 0; i < n; ++i) addObject(s, "sphere", {0.1}, {-5.0 - i % 64, 0.5 + i / 64, 3.0 * (i % 5)});
         Measured m;
-        const std::string refused = headless.renderer->measure(s, cameraAt({0, 1, 0}, {std::cos(a), 1 - std::sin(a), 0}), {1, 1}, m);
-        if (!refused.empty()) {
-            MESSAGE(n << " primitives: " << refused);
-            continue;
-        }
+        REQUIRE(headless.renderer->measure(s, cameraAt({0, 1, 0}, {std::cos(a), 1 - std::sin(a), 0}), {1, 1}, m) == "");
         MESSAGE(n << " primitives: t " << m.channels.depth[0] << ", at most " << headless.renderer->plan().loop_iterations << " loop turns");
         CHECK(m.channels.state[0] == 1);
         CHECK(static_cast<double>(m.channels.depth[0]) == doctest::Approx(28.6537).epsilon(1e-3 / 28.6537));

@@ -4,6 +4,9 @@
 
 #include "core/sdf/raycast.h"
 
+#include <ranges>
+#include <tuple>
+
 using namespace mb;
 using namespace mb::hard;
 
@@ -123,13 +126,16 @@ TEST_CASE("case 13: what is thinner than a pixel covers, over 64 samples, what i
 
     Scene wire;
     addObject(wire, "cylinder", {1e-3, 40, 0});
-    // A ray that passes within half of where it is close is undecided, and painted: close must be well below the wire's radius.
-    wire.render.samples = 64, wire.render.march_epsilon = 1e-5;
-    for (const double tilt : {5.0, 30.0}) {
+    wire.render.samples = 64;
+    const double usual = wire.render.march_epsilon;  // close is 1 mm there, the wire's radius
+    for (const auto& [tilt, epsilon, way] : {std::tuple{5.0, usual, Evaluation::straight}, {30.0, usual, Evaluation::straight}, {5.0, usual, Evaluation::grid},
+                                             {30.0, usual, Evaluation::grid}, {30.0, 1e-5, Evaluation::straight}}) {
+        headless.renderer->setEvaluation(way);
+        wire.render.march_epsilon = epsilon;
         wire.objects[0].rot = {0, 0, tilt};
         paint(wire, plain({1, 1, 1}));
         const double seen = coverage(headless, wire, camera, size), wanted = 2e-3 / std::cos(glm::radians(tilt)) / (pixel * size.x);
-        MESSAGE("a wire of 2 mm, tilted by " << tilt << ": covers " << seen << ", wanted " << wanted);
+        MESSAGE("a wire of 2 mm, tilted by " << tilt << ", epsilon " << epsilon << ": covers " << seen / wanted << " of what it should");
         CHECK(std::fabs(seen / wanted - 1) <= kTolerance);
         const auto picture = headless.draw(wire, camera, size);
         for (int y = 0; y < size.y; ++y) {
@@ -278,4 +284,47 @@ TEST_CASE("case 18: of surfaces that coincide the first is seen, from everywhere
     MESSAGE(seen << " pixels of 100 frames: " << wrong_twin << " show the second ball, " << wrong_tile << " the other tile");
     CHECK(wrong_twin == 0);
     CHECK(wrong_tile == 0);
+}
+TEST_CASE("case 18: of faces that lie in one plane the first is seen, wherever the boxes' centres are and however they are turned") {
+    HeadlessRenderer headless;
+    const glm::ivec2 size{32, 24};
+    // Two boxes with a face in the plane z = 0.5, which they share around the axis; what is subtracted lies before it.
+    const auto pair = [](std::string_view op, double turn, bool large_first) {
+        Scene s;
+        const int parent = op.empty() ? kNoParent : addObject(s, op, {});
+        s.materials = {plain({1, 0, 0}), plain({0, 1, 0})};
+        for (const int i : {0, 1}) {
+            const bool large = large_first == (i == 0);
+            const glm::dvec3 sides = large ? glm::dvec3{2, 1.2, 1.6} : glm::dvec3{1.3, 1.4, 0.8};
+            const double way = op == "subtract" && i == 1 ? -1 : 1;
+            addObject(s, "box", {sides.x, sides.y, sides.z, 0}, {large ? 0 : 0.1, large ? 0 : 0.03, 0.5 - way * sides.z / 2}, parent);
+            s.objects.back().rot = {0, 0, large ? 0 : turn};
+            s.objects.back().material = i;
+        }
+        return s;
+    };
+    for (const Evaluation way : {Evaluation::straight, Evaluation::grid}) {
+        headless.renderer->setEvaluation(way);
+        std::size_t seen = 0, second = 0, picked = 0;
+        for (const std::string_view op : {"", "union", "intersect", "subtract"})
+            for (const double turn : {0.0, 31.7})
+                for (const int frame : std::views::iota(0, 50)) {
+                    const Scene s = pair(op, turn, frame % 2 == 0);
+                    const Tree tree = makeTree(s);
+                    const Camera camera = cameraAt({0.2 + 0.026 * frame, 0.4, 3 + 0.062 * frame}, {0, 0, 0.5});
+                    const auto picture = headless.draw(s, camera, size);
+                    for (std::size_t i = 0; i < picture.size(); ++i) {
+                        const DoubleRay r = pixelRay(camera, size, static_cast<int>(i) % size.x, static_cast<int>(i) / size.x);
+                        const glm::dvec3 p = r.origin + (0.5 - r.origin.z) / r.direction.z * r.direction;
+                        if (std::max(std::fabs(p.x), std::fabs(p.y)) > 0.4) continue;
+                        ++seen, second += picture[i] != glm::vec3{1, 0, 0};
+                        picked += raycast(tree, r.origin, r.direction, 100).leaf != 0;
+                    }
+                }
+        MESSAGE(std::string(way == Evaluation::grid ? "through the grid: " : "straight: ") << second << " of " << seen << " pixels of the shared face show the second box, "
+                << picked << " picks find it");
+        CHECK(seen > 8000);
+        CHECK(second == 0);
+        CHECK(picked == 0);
+    }
 }

@@ -101,6 +101,7 @@ std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) 
     for (const Plan::Called& c : plan.called)
         if (!c.effect->define.empty()) text += fmt::format("#define {}\n", c.effect->define);
     if (sizes.turned) text += "#define TURNED\n";
+    if (sizes.carved) text += "#define CARVED\n";
     if (counted) text += "#define COUNTED\n";
     return text;
 }

@@ -45,6 +45,7 @@ std::string gridGlsl(const Tree& tree);
 struct Sizes {
     std::size_t leaves, branches, materials, lights;
     bool turned = true;  // some leaf or operator has other axes than its space
+    bool carved = true;  // some operator takes away: there may be a surface without an inside
 };
 std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid = false);
 

@@ -60,7 +60,7 @@ std::string choosers(const Used& used) {
             text += chooser(fmt::format("float {}(int how, float a, float b, float k)", share ? "shareOfSecond" : "foldDistances"), "float result = a", "how",
                             used.folds, kItemFolds, [share](std::size_t row) {
                                 const Operator& o = operators()[row];
-                                return fmt::format("{}(a, b, k)", share ? o.share : o.glsl);
+                                return share ? fmt::format("{}(a, b, k, tie)", o.share) : fmt::format("{}(a, b, k)", o.glsl);
                             });
     if (!used.wraps.empty())
         text += chooser("float wrapDistance(int code, float d, vec3 at, Node node)", "float result = d", "code", used.wraps, kItemWrap, [&](std::size_t row) {

@@ -18,6 +18,9 @@ bool isTurned(const Tree& tree) {
     const auto turned = [](const auto& x) { return x.rotation != glm::dmat3(1); };
     return std::ranges::any_of(tree.leaves, turned) || std::ranges::any_of(tree.branches, turned);
 }
+bool isCarved(const Tree& tree) {
+    return std::ranges::any_of(tree.branches, [](const Branch& b) { return b.op->first_only || b.op->intersects; });
+}
 
 }  // namespace
 
@@ -188,7 +191,8 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
 
 const Program* Renderer::program(Variant variant, const Tree& tree, const Ready& ready, std::string& why) {
     const Packed& packed = ready.packed;
-    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !ready.grid || isTurned(tree)};
+    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !ready.grid || isTurned(tree),
+                      isCarved(tree)};
     Texts texts = shaderLibrary();
     texts["scene.glsl"] = ready.grid ? gridGlsl(tree) : sceneGlsl(tree);
     const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",

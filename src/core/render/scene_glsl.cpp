@@ -46,7 +46,7 @@ struct Writer {
         const std::string line = fmt::format("    float d{} = {}(d{}, d{}, {});\n", v, branch.op->glsl, a, b, k);
         map += line, ahead += line;
         ahead += fmt::format("    Ahead a{} = {};\n", v, aheadFold(*branch.op, "a" + a, "a" + b));
-        find += fmt::format("    Nearest n{0} = foundBoth({1}(n{3}.distance, n{4}.distance, {5}), {2}(n{3}.distance, n{4}.distance, {5}), n{3}, n{4});\n",
+        find += fmt::format("    Nearest n{0} = foundBoth({1}(n{3}.distance, n{4}.distance, {5}), {2}(n{3}.distance, n{4}.distance, {5}, tie), n{3}, n{4});\n",
                             v, branch.op->glsl, branch.op->share, a, b, k);
         stack.push_back(v);
     }

@@ -40,6 +40,12 @@ template <class F> constexpr ForScalars<FoldFunction> folding(F) {
             [](Dual a, Dual b, double k) { return (Sdf<Dual>{}.*F{}(Sdf<Dual>{}))(a, b, k); },
             [](Interval a, Interval b, double k) { return (Sdf<Interval>{}.*F{}(Sdf<Interval>{}))(a, b, k); }};
 }
+template <class R, class F> R shareWith(R a, R b, double k, double tie) {
+    return (sdf::Sdf<R>{}.*F{}(sdf::Sdf<R>{}))(a, b, sdf::plain<R>(k), sdf::plain<R>(tie));
+}
+template <class F> constexpr ForScalars<ShareFunction> sharing(F) {
+    return {shareWith<float, F>, shareWith<double, F>, shareWith<sdf::Dual, F>, shareWith<sdf::Interval, F>};
+}
 template <class R, class F> R wrapWith(R d, sdf::Vec3<R> p, const double* k) { return sdf::wrap(F{}(sdf::Sdf<R>{}), d, p, k); }
 template <class F> constexpr ForScalars<WrapFunction> wrapping(F) {
     return {wrapWith<float, F>, wrapWith<double, F>, wrapWith<sdf::Dual, F>, wrapWith<sdf::Interval, F>};
@@ -53,7 +59,7 @@ template <int N, class F, class S, class O, class I>
 constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share, O span, I inner) {
     if (N != 1 || parameters[0].size != 1) throw "a fold takes one number";
     o.kind = Operator::Kind::fold, o.parameters = parameters;
-    o.fold_by = folding(f), o.share_by = folding(share);
+    o.fold_by = folding(f), o.share_by = sharing(share);
     using Span = sdf::Vec2<double>;
     o.span_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*O{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };
     o.inner_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*I{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };

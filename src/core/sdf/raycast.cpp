@@ -13,6 +13,7 @@ constexpr int kBudget = 4096;         // evaluations
 constexpr double kClose = 1e-5;       // of the distance travelled: nearer, single distances are not trusted
 constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kNarrowingSteps = 100;
+constexpr double kTie = 1e-9;         // of the distance from the origin: surfaces nearer to one another are one, the first's
 
 /// The field along the ray: all of a tree, or what a grid keeps of it where the ray is.
 struct Marcher {
@@ -27,10 +28,10 @@ struct Marcher {
         const glm::dvec3 p = at(t);
         return grid ? grid->distance(p) : distance<double>(tree, {p.x, p.y, p.z});
     }
-    int leafAt(double t) const {
+    int leafAt(double t, double tie) const {
         const glm::dvec3 p = at(t);
         const std::span<const Instruction> tape = grid ? grid->tapeAt(p) : std::span<const Instruction>(tree.program);
-        return nearest<double>(tree, tape.empty() ? tree.program : tape, {p.x, p.y, p.z}).leaf;
+        return nearest<double>(tree, tape.empty() ? std::span<const Instruction>(tree.program) : tape, {p.x, p.y, p.z}, tie).leaf;
     }
 };
 
@@ -84,7 +85,7 @@ RayEnd follow(const Tree& tree, const Grid* grid, glm::dvec3 origin, glm::dvec3 
         before = t, f_before = std::max(f, 0.0);
         t += std::max(f, std::max(kClose * t, 4 * kNoise * (reach + 1)));
     }
-    end.leaf = march.leafAt(end.t);
+    end.leaf = march.leafAt(end.t, kTie * (reach + end.t));
     if (end.leaf >= 0) end.index = tree.leaves[static_cast<std::size_t>(end.leaf)].index;
     end.evaluations = march.evaluations;
     return end;

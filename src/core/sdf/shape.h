@@ -88,6 +88,7 @@ template <template <class> class Signature> struct ForScalars {
     explicit operator bool() const { return f64 != nullptr; }
 };
 template <class R> using FoldFunction = R (*)(R a, R b, double k);
+template <class R> using ShareFunction = R (*)(R a, R b, double k, double tie);
 /// A span of the result, from the two children's spans and inner spans.
 using SpanFunction = sdf::Vec2<double> (*)(sdf::Vec2<double> a, sdf::Vec2<double> a_inner, sdf::Vec2<double> b, sdf::Vec2<double> b_inner);
 template <class R> using WrapFunction = R (*)(R d, sdf::Vec3<R> p, const double* k);
@@ -114,7 +115,8 @@ struct Operator : ShapeType {
     bool intersects = false;                   // the result lies within every child (plus the blend)
     bool blends = false;                       // its first parameter is a blend: at 0 it is the plain operator
     bool takes_point = false;                  // the wrap's function asks where it is
-    ForScalars<FoldFunction> fold_by, share_by;
+    ForScalars<FoldFunction> fold_by;
+    ForScalars<ShareFunction> share_by;
     SpanFunction span_by = nullptr, inner_by = nullptr;
     ForScalars<WrapFunction> wrap_by;
     ForScalars<WarpFunction> warp_by;
@@ -126,8 +128,8 @@ struct Operator : ShapeType {
     Copy (*copy)(const Numbers&, std::size_t) = nullptr;     // the one of that number
 
     template <class R> R fold(R a, R b, double k) const { return fold_by.of<R>()(a, b, k); }
-    /// From 0, the first child alone, to 1, the second alone.
-    template <class R> R shareOfSecond(R a, R b, double k) const { return share_by.of<R>()(a, b, k); }
+    /// From 0, the first child alone, to 1, the second alone; the first where they differ by no more than `tie`, a blend apart.
+    template <class R> R shareOfSecond(R a, R b, double k, double tie = 0) const { return share_by.of<R>()(a, b, k, tie); }
     template <class R> R wrap(R d, sdf::Vec3<R> p, const LeafNumbers& k) const { return wrap_by.of<R>()(d, p, k.data()); }
     template <class R> sdf::Vec3<R> warped(sdf::Vec3<R> p, const LeafNumbers& k) const { return warp_by.of<R>()(p, k.data()); }
     /// How many numbers the wrap's GLSL functions take.

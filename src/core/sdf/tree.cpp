@@ -57,12 +57,16 @@ template <class R> struct DistanceVisitor {
 template <class R> struct NearestVisitor {
     using Found = Nearest<R>;
     Spaces<R> spaces;
+    double tie = 0;
     Found leaf(std::size_t i) { return {spaces.leafDistance(i), static_cast<int>(i)}; }
     Found fold(const Branch& b, Found x, Found y) {
-        const bool second = b.op->shareOfSecond<R>(x.distance, y.distance, b.blend) > R(0.5);
+        const bool second = b.op->shareOfSecond<R>(x.distance, y.distance, b.blend, tie) > R(0.5);
         return {b.op->fold<R>(x.distance, y.distance, b.blend), second ? y.leaf : x.leaf};
     }
-    Found join(Found x, Found y) { return y.distance < x.distance ? y : x; }
+    Found join(Found x, Found y) {
+        const bool second = y.distance < x.distance - static_cast<R>(tie);
+        return {std::min(x.distance, y.distance), second ? y.leaf : x.leaf};
+    }
     void enter(const Branch& b) { spaces.enter(b); }
     Found wrap(const Branch& b, Found x) { return {spaces.wrapped(b, x.distance), x.leaf}; }
 };
@@ -138,10 +142,10 @@ template <class R> R distance(const Tree& tree, std::span<const Instruction> tap
     return run<R>(tree, tape, R(static_cast<R>(kEmptyDistance)), DistanceVisitor<R>{Spaces<R>(tree, p, warps)});
 }
 template <class R> R distance(const Tree& tree, sdf::Vec3<R> p) { return distance<R>(tree, tree.program, p); }
-template <class R> Nearest<R> nearest(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p) {
-    return run<Nearest<R>>(tree, tape, {static_cast<R>(kEmptyDistance), -1}, NearestVisitor<R>{Spaces<R>(tree, p, 0)});
+template <class R> Nearest<R> nearest(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p, double tie) {
+    return run<Nearest<R>>(tree, tape, {static_cast<R>(kEmptyDistance), -1}, NearestVisitor<R>{Spaces<R>(tree, p, 0), tie});
 }
-template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p) { return nearest<R>(tree, tree.program, p); }
+template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p, double tie) { return nearest<R>(tree, tree.program, p, tie); }
 
 #define MB_FOR(R)                                                                          \
     template sdf::Vec3<R> toFrame(const glm::dmat3&, glm::dvec3, const sdf::Vec3<R>&);     \
@@ -152,10 +156,10 @@ MB_FOR(double)
 MB_FOR(sdf::Dual)
 MB_FOR(sdf::Interval)
 #undef MB_FOR
-template Nearest<float> nearest(const Tree&, sdf::Vec3<float>);
-template Nearest<double> nearest(const Tree&, sdf::Vec3<double>);
-template Nearest<float> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<float>);
-template Nearest<double> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<double>);
+template Nearest<float> nearest(const Tree&, sdf::Vec3<float>, double);
+template Nearest<double> nearest(const Tree&, sdf::Vec3<double>, double);
+template Nearest<float> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<float>, double);
+template Nearest<double> nearest(const Tree&, std::span<const Instruction>, sdf::Vec3<double>, double);
 
 Slope slope(const Tree& tree, glm::dvec3 p) {
     const sdf::Dual d = distance<sdf::Dual>(tree, {{p.x, 1, 0, 0}, {p.y, 0, 1, 0}, {p.z, 0, 0, 1}});

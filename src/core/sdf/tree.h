@@ -74,12 +74,12 @@ Tree makeTreeOf(const Scene& scene, std::size_t object);
 /// The signed distance bound of the tree at p, for R = float, double, sdf::Dual or sdf::Interval: never more than the
 /// distance to the nearest surface, negative inside. No two points' values differ by more than the points' distance.
 template <class R> R distance(const Tree& tree, sdf::Vec3<R> p);
-/// The same, with the leaf it came from. R = float or double.
-template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p);
+/// The same, with the leaf it came from; of leaves whose values differ by no more than `tie`, the first. R = float or double.
+template <class R> Nearest<R> nearest(const Tree& tree, sdf::Vec3<R> p, double tie = 0);
 /// The value of a tape over the tree's leaves and branches: of a part, of one node, or of what is left of the tree in a
 /// cell; p lies in the space behind that many warps.
 template <class R> R distance(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p, int warps = 0);
-template <class R> Nearest<R> nearest(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p);
+template <class R> Nearest<R> nearest(const Tree& tree, std::span<const Instruction> tape, sdf::Vec3<R> p, double tie = 0);
 
 /// Distance and gradient in double, exact up to rounding; the gradient is that of one side on a crease, and may be 0.
 struct Slope {
