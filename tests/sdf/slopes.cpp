@@ -109,3 +109,33 @@ TEST_CASE("a node that is too steep is named") {
     CHECK(guilty().type == "twist");
     CHECK(guilty().object == static_cast<std::size_t>(twist));
 }
+
+TEST_CASE("a metre above a warp is a metre") {
+    // Along y from the middle of a slowly bent or twisted bar nothing is warped, though the whole value is eased.
+    for (const std::string_view warp : {"twist", "bend"})
+        for (const std::string_view wrap : {"round", "shell", "displace"}) {
+            CAPTURE(warp);
+            CAPTURE(wrap);
+            Scene s;
+            const int outer = addObject(s, wrap, wrap == "displace" ? std::initializer_list<double>{0.1, 0.25} : std::initializer_list<double>{0.1});
+            const int inner = addObject(s, warp, {warp == "twist" ? 0.2 : 40}, {}, outer);
+            addObject(s, "box", {2, 1, 0.6, 0}, {}, inner);
+            const Tree tree = makeTree(s);
+            const auto at = [&](double x, double y, double z) { return distance<double>(tree, {x, y, z}); };
+            const auto crossing = [&](double lo, double hi, double x = 0, double z = 0) {
+                for (int i = 0; i < 60; ++i) (at(x, 0.5 * (lo + hi), z) < 0 ? lo : hi) = 0.5 * (lo + hi);
+                return lo;
+            };
+            if (wrap == "round") CHECK(crossing(0.2, 1) == doctest::Approx(0.6).epsilon(1e-9));
+            if (wrap == "shell") {
+                CHECK(crossing(0.45, 1) == doctest::Approx(0.5).epsilon(1e-9));
+                CHECK(at(0, 0.41, 0) < 0);
+                CHECK(at(0, 0.39, 0) > 0);
+            }
+            // Where sin x sin y sin z is largest the surface has sunk by most of the amplitude.
+            if (wrap == "displace") {
+                const double sunk = 0.5 - crossing(0.2, 1, 0.02, 0.02), wave = std::sin(0.5 * 3.14159265358979 * 0.02) * std::sin(0.5 * 3.14159265358979 * 0.02);
+                CHECK(sunk == doctest::Approx(0.1 * wave * std::sin(0.5 * 3.14159265358979 * 0.5)).epsilon(0.05));
+            }
+        }
+}

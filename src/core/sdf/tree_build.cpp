@@ -38,6 +38,7 @@ struct Builder {
     const Scene& scene;
     Tree tree;
     int on_stack = 0, warps = 0, object = 0;
+    double eased = 1;      // what a metre at the surface is in the value last left: a warp divides by its stretch. Of several, the least
     bool in_part = false;  // below an operator that is not a plain union
 
     void push(Instruction::Kind kind, std::size_t index) {
@@ -82,11 +83,14 @@ struct Builder {
 
     bool addUnion(std::size_t i, const Frame& frame) {
         bool any = false;
+        double least = 1;
         for (std::size_t child = i + 1, end = subtreeEnd(scene, i); child < end; child = subtreeEnd(scene, child)) {
             if (!add(child, frame)) continue;
             join(any);
             any = true;
+            least = std::min(least, eased);
         }
+        eased = least;
         return any;
     }
 
@@ -95,6 +99,7 @@ struct Builder {
         const std::size_t branch = tree.branches.size();
         tree.branches.push_back({&op, scaled(scene.objects[i], frame.scale)[0], i, {}, frame.rotation, frame.position, warps});
         bool any = false;
+        double least = 1;
         for (std::size_t child = i + 1, end = subtreeEnd(scene, i); child < end; child = subtreeEnd(scene, child)) {
             const bool left_value = add(child, frame);
             if (left_value && any) push(Instruction::Kind::fold, branch);
@@ -103,7 +108,9 @@ struct Builder {
             const bool needed = op.intersects || op.min_children > 1 || (op.first_only && child == i + 1);
             if (!left_value && needed) return rewind(start), false;
             any = any || left_value;
+            if (left_value) least = std::min(least, eased);
         }
+        eased = least;
         return any;
     }
 
@@ -123,9 +130,17 @@ struct Builder {
         if (!left_value) return rewind(start), false;
 
         LeafNumbers& numbers = tree.branches[branch].numbers;
+        std::size_t at = 0;
+        for (const Parameter& p : op.parameters)
+            for (int k = 0; k < p.size; ++k, ++at)
+                if (p.isLength()) numbers[at] *= eased;
         if (op.cook) op.cook(numbers, bounds(tree, std::span(tree.program).subspan(begin)));
         for (const double x : numbers)
             if (!std::isfinite(x)) return refuse(i, "a shape without bounds: put it into an intersect with one that has them"), false;
+        for (const std::string_view name : op.derived) {
+            if (name == "ease") eased *= numbers[at];
+            ++at;
+        }
         push(Instruction::Kind::wrap, branch);
         return true;
     }
@@ -152,6 +167,7 @@ struct Builder {
         const Primitive& primitive = asPrimitive(*o.type);
         Leaf leaf{&primitive, frame.rotation, frame.position, leading(scaled(o, frame.scale)), object, effectiveMaterial(scene, i), i, warps};
         if (primitive.cook) primitive.cook(leaf.numbers);
+        eased = 1;
         tree.leaves.push_back(leaf);
         push(Instruction::Kind::leaf, tree.leaves.size() - 1);
         return true;
