@@ -90,12 +90,38 @@ inline Scene childrenOf(const Scene& scene, std::size_t i) {
     }
     return alone;
 }
-inline std::optional<Found> foundWrapped(const Scene& scene, std::size_t i, glm::dvec3 q) {
+inline double easeOf(const Scene& scene, std::size_t i);
+/// The least of what the children's values were divided by.
+inline double easeOfChildren(const Scene& scene, std::size_t i) {
+    double least = 1;
+    for (std::size_t c = i + 1; c < subtreeEnd(scene, i); ++c)
+        if (scene.objects[c].parent == static_cast<int>(i)) least = std::min(least, easeOf(scene, c));
+    return least;
+}
+/// A wrap's numbers: its lengths are those of a value that was eased.
+inline LeafNumbers wrapNumbers(const Scene& scene, std::size_t i) {
     const Object& o = scene.objects[i];
     const Operator& op = asOperator(*o.type);
     LeafNumbers k{};
     std::copy_n(o.numbers.begin(), k.size(), k.begin());
+    for (std::size_t n = 0; n < op.parameters.size(); ++n)
+        if (op.parameters[n].isLength()) k[n] *= easeOfChildren(scene, i);  // each parameter of a wrap is one number
     if (op.cook) op.cook(k, bounds(makeTree(childrenOf(scene, i))));
+    return k;
+}
+inline double easeOf(const Scene& scene, std::size_t i) {
+    const Object& o = scene.objects[i];
+    if (o.hidden || !o.type->isOperator()) return 1;
+    const Operator& op = asOperator(*o.type);
+    double ease = easeOfChildren(scene, i);
+    for (std::size_t n = 0; n < op.derived.size(); ++n)
+        if (op.derived[n] == "ease") ease *= wrapNumbers(scene, i)[op.parameters.size() + n];
+    return ease;
+}
+inline std::optional<Found> foundWrapped(const Scene& scene, std::size_t i, glm::dvec3 q) {
+    const Object& o = scene.objects[i];
+    const Operator& op = asOperator(*o.type);
+    const LeafNumbers k = wrapNumbers(scene, i);
     const sdf::Vec3<double> at{q.x, q.y, q.z}, asked = op.warp_by ? op.warped(at, k) : at;
     std::optional<Found> child = foundBelow(scene, i + 1, {asked.x, asked.y, asked.z});
     if (child) child->distance = o.scale * op.wrap(child->distance, at, k);
