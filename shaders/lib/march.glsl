@@ -13,6 +13,7 @@
 
 const int STEP_CAP = 16384;        // no loop without a constant bound; the knobs' limit lies below it
 const int NARROWING_STEPS = 4;     // regula falsi on a bracket no longer than closeAt()
+const float OVERSHOOT = 8.0;       // noises beyond where a span begins, to see the sign that a hit there has
 const float SLOPE_MEMORY = 0.7;
 const float STEEPEST_RECESSION = 0.8;
 const float CARE = 1.0 / 32.0;     // of closeAt(), for a ray's second try
@@ -123,7 +124,9 @@ void openBracket(inout Along a, inout March march, float f, int leaf, bool narro
     bool ahead = a.reach > a.f_before;
     float lo = ahead ? a.before + a.reach : a.before;
     a.bracket = Bracket(lo, a.t, ahead ? 2.0 * a.noise * -f / max(a.t - lo, 3.0 * a.noise) : a.f_before, f, 0);
+    a.ended = a.ended || (ahead && a.t - lo <= (3.0 + OVERSHOOT) * a.noise);
     a.t = within(a.bracket);
+    march.t = narrows ? a.t : march.t;
 }
 
 // Step: the point is accepted, and the next lies as far on as all is known to be empty. `found` is what mapAhead() said.
@@ -141,7 +144,9 @@ void advance(Ray ray, float far, inout Along a, inout March march, float f, vec3
     a.ended = a.t + a.reach >= far;
     a.decided = a.ended && a.proved && !a.doubtful && !a.touched;
 
-    float ahead = max(a.reach > f ? a.reach + found.z * closeTo(ray, a, a.t + a.reach) : f, close);
+    // A ray that starts on a surface needs room to tell on which side its way leads.
+    float beyond = a.on_surface ? closeTo(ray, a, a.t + a.reach) : (2.0 + OVERSHOOT) * a.noise;
+    float ahead = max(a.reach > f ? a.reach + found.z * beyond : f, close);
 #ifdef RELAXED
     if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * a.noise);
 #endif
