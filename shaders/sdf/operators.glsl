@@ -16,8 +16,8 @@ real opSubtract(real a, real b, real blend) { return max(a, -b) + opBlend(a, -b,
 real opMorph(real a, real b, real t) { return a * (1.0f - t) + b * t; }
 
 // How much of the second child's surface shows, from 0 to 1: the value's derivative by it. Where the share is 0 or 1 the
-// value is one child's alone. `lead` is how far the second is ahead of the first; without a
-// blend to speak of, it must be ahead by more than `tie`.
+// value is one child's alone. `lead` is how far the second is ahead of the first; where next to nothing is blended, it must be
+// ahead by more than `tie`.
 real shareOf(real lead, real blend, real tie) {
     real ahead = pick(tie - blend, lead, lead - tie);
     return min(max(0.5f + ahead / (2.0f * max(blend, 1e-30f)), 0.0f), 1.0f);

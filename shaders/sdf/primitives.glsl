@@ -12,11 +12,11 @@
 // inner span, within which all is solid: what is taken away leaves nothing there. Both only lengthen a march's step over what
 // is known to be empty; a hit is always a sign of the distance.
 
-// Within a box of these half sides around the origin.
 // Rounding may take a hair off a span: an outer one is a millionth larger, an inner one smaller.
 real wider() { return real(1.000001f); }
 real narrower() { return real(0.999997f); }
 real awayFromZero(real x) { return pick(abs(x) - 1e-18f, pick(x, -1e-18f, 1e-18f), x); }
+// Within a box of these half sides around the origin.
 vec2 spanAround(vec3 o, vec3 d, vec3 half_sides) {
     vec3 inverse = vec3(1.0f / awayFromZero(d.x), 1.0f / awayFromZero(d.y), 1.0f / awayFromZero(d.z));
     vec3 middle = o * inverse;
@@ -77,8 +77,9 @@ real sdCylinder(vec3 p, real radius, real height, real round) {
 }
 // Within an endless cylinder around y, as within a ball seen from above; and within a slab of that half height.
 vec2 spanUpright(vec3 o, vec3 d, real radius, real half_height) {
-    real a = max(square(d.x) + square(d.z), real(1e-30f));
-    real b = (0.0f - (o.x * d.x + o.z * d.z)) / a;
+    real across = square(d.x) + square(d.z);
+    real a = max(across, real(1e-30f));
+    real b = pick(across - a, 0.0f, (0.0f - (o.x * d.x + o.z * d.z)) / a);  // as good as upright: no nearer anywhere
     real h = square(radius) - square(o.x + d.x * b) - square(o.z + d.z * b);
     real s = sqrt(max(h, 0.0f) / a);
     real inverse = 1.0f / awayFromZero(d.y);

@@ -12,6 +12,7 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
+constexpr double kTooNear = 1e-9;       // of the radius: a point so near to the centre has no direction
 constexpr std::size_t kMany = 32;       // solids, or leaves of one: fewer are asked one after the other
 
 /// The grid of a tree, made from that of what stood there before, if anything did. (Copies of a world share theirs.)
@@ -119,7 +120,7 @@ struct StaticField::Search {
 
         const glm::dvec3 away = c - closest->point;
         const double d = glm::length(away);
-        if (!(d > 1e-9 * radius) || d > radius + margin) return false;
+        if (!(d > kTooNear * radius) || d > radius + margin) return false;
         const double on = 1e-8 * (1 + radius + glm::length(c));
         if (std::fabs(field(closest->point)) > on) return false;
         // On an edge each surface must push outwards; on a face there must be a solid behind the point.
@@ -233,8 +234,8 @@ double StaticField::touches(glm::dvec3 centre, double radius, double margin, std
             free = std::min(free, f - radius);
             continue;
         }
-        if (f <= 0) {
-            // The centre is inside: out along the gradient, and upwards where it is 0.
+        if (f <= 2 * kTooNear * radius) {
+            // The centre is inside, or on the surface: out along the gradient, and upwards where it is 0.
             const glm::dvec3 g = slope(solid.tree, centre).gradient;
             const double l = glm::length(g);
             const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};

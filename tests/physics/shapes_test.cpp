@@ -162,6 +162,21 @@ TEST_CASE("a shape less itself is nothing to land on") {
     CHECK(w.bodies()[0].position.y == doctest::Approx(3 - 0.5 * kG).epsilon(1e-6));
 }
 
+TEST_CASE("a ball that starts in a solid comes out of it whole, its centre not left on a face") {
+    for (const double y : {4.0, 5.7, 5.95, 6.0})
+        for (const bool round : {false, true}) {
+            Scene s = scene(1.0 / 120, 0.5, 0.5);
+            if (round) add(s, "cylinder", {0, 3, 0}, {3, 6, 0});
+            else add(s, "box", {0, 3, 0}, {6, 6, 6, 0});
+            ball(s, {0, y, 0.1}, 0.2);
+            PhysicsWorld w(s);
+            run(w, 5);
+            CAPTURE(y);
+            REQUIRE(w.bodies().size() == 1);
+            CHECK(w.bodies()[0].position.y == doctest::Approx(6.2).epsilon(1e-4));
+        }
+}
+
 TEST_CASE("a ball deep inside a solid comes out gently") {
     for (const glm::dvec3 at : {glm::dvec3{0, 0, 0}, glm::dvec3{0.1, 0.45, 0}, glm::dvec3{0.5, 0.5, 0.5}}) {
         Scene s = scene(1.0 / 120, 0.5, 0.5);

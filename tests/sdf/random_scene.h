@@ -91,12 +91,12 @@ inline Scene childrenOf(const Scene& scene, std::size_t i) {
     return alone;
 }
 inline double easeOf(const Scene& scene, std::size_t i);
-/// The least of what the children's values were divided by.
+/// The greatest of what the children's values were divided by.
 inline double easeOfChildren(const Scene& scene, std::size_t i) {
-    double least = 1;
+    double greatest = 0;
     for (std::size_t c = i + 1; c < subtreeEnd(scene, i); ++c)
-        if (scene.objects[c].parent == static_cast<int>(i)) least = std::min(least, easeOf(scene, c));
-    return least;
+        if (scene.objects[c].parent == static_cast<int>(i) && foundBelow(scene, c, {0, 0, 0})) greatest = std::max(greatest, easeOf(scene, c));
+    return greatest > 0 ? greatest : 1;
 }
 /// A wrap's numbers: its lengths are those of a value that was eased.
 inline LeafNumbers wrapNumbers(const Scene& scene, std::size_t i) {
@@ -154,6 +154,7 @@ inline std::optional<Found> foundBelow(const Scene& scene, std::size_t i, glm::d
     if (op.kind == Operator::Kind::copies) return foundCopies(scene, i, q);
     // A child that is not there is the empty set: it adds nothing and takes nothing away, but shares nothing either, and
     // nothing lies between it and another.
+    const double k = o.numbers[0] * (op.parameters[0].isLength() ? easeOfChildren(scene, i) : 1);
     std::optional<Found> sum;
     bool first = true;
     for (std::size_t c = i + 1; c < scene.objects.size(); ++c) {
@@ -163,8 +164,8 @@ inline std::optional<Found> foundBelow(const Scene& scene, std::size_t i, glm::d
         first = false;
         if (!child) continue;
         if (!sum) sum = child;
-        else sum = Found{op.fold<double>(sum->distance, child->distance, o.numbers[0]),
-                         op.shareOfSecond<double>(sum->distance, child->distance, o.numbers[0]) > 0.5 ? child->object : sum->object};
+        else sum = Found{op.fold<double>(sum->distance, child->distance, k),
+                         op.shareOfSecond<double>(sum->distance, child->distance, k) > 0.5 ? child->object : sum->object};
     }
     if (sum) sum->distance *= o.scale;
     return sum;

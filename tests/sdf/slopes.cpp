@@ -110,7 +110,33 @@ TEST_CASE("a node that is too steep is named") {
     CHECK(guilty().object == static_cast<std::size_t>(twist));
 }
 
-TEST_CASE("a metre above a warp is a metre") {
+TEST_CASE("a metre above a warp is a metre, and beside one too") {
+    const auto surfaceAlong = [](const Scene& s, glm::dvec3 from, glm::dvec3 way) {
+        const Tree tree = makeTree(s);
+        double lo = 0, hi = 10;
+        for (int i = 0; i < 60; ++i) {
+            const glm::dvec3 p = from + 0.5 * (lo + hi) * way;
+            (distance<double>(tree, {p.x, p.y, p.z}) < 0 ? lo : hi) = 0.5 * (lo + hi);
+        }
+        return lo;
+    };
+    // A ball in a union with something twisted, and a box that something twisted bites: they swell by the radius.
+    Scene beside;
+    const int swollen = addObject(beside, "round", {0.3}), both = addObject(beside, "union", {0}, {}, swollen);
+    addObject(beside, "sphere", {0.5}, {5, 0, 0}, both);
+    addObject(beside, "box", {1, 1, 1, 0}, {}, addObject(beside, "twist", {0.5}, {}, both));
+    CHECK(surfaceAlong(beside, {5, 0, 0}, {1, 0, 0}) == doctest::Approx(0.8).epsilon(1e-9));
+    Scene bitten;
+    const int larger = addObject(bitten, "round", {0.3}), less = addObject(bitten, "subtract", {0}, {}, larger);
+    addObject(bitten, "box", {2, 2, 2, 0}, {}, less);
+    addObject(bitten, "box", {0.5, 0.5, 0.5, 0}, {}, addObject(bitten, "twist", {0.5}, {0, 1, 0}, less));
+    CHECK(surfaceAlong(bitten, {0, -0.5, 0}, {1, 0, 0}) == doctest::Approx(1.3).epsilon(1e-9));
+    // A blend moves no surface by more than a quarter of it.
+    Scene blended;
+    const int seam = addObject(blended, "union", {0.4});
+    for (int i = 0; i < 2; ++i) addObject(blended, "box", {1, 1, 1, 0}, {}, addObject(blended, "twist", {0.5}, {}, seam));
+    CHECK(surfaceAlong(blended, {0, 0, 0}, {0, 1, 0}) == doctest::Approx(0.6).epsilon(1e-9));
+
     // Along y from the middle of a slowly bent or twisted bar nothing is warped, though the whole value is eased.
     for (const std::string_view warp : {"twist", "bend"})
         for (const std::string_view wrap : {"round", "shell", "displace"}) {

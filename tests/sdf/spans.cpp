@@ -21,13 +21,14 @@ struct Ray {
     glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-/// A unit direction; one in three along an axis, with exact zeros of either sign, and one in three within a plane of axes.
+/// A unit direction; one in three along an axis, with exact zeros of either sign or next to nothing, and one in three within a
+/// plane of axes.
 glm::dvec3 drawDirection(Draw& draw) {
     glm::dvec3 d{0};
     do {
         const int zeros = draw.below(3), first = draw.below(3);
         for (int i = 0; i < 3; ++i) d[i] = draw.uniform(-1, 1);
-        for (int i = 0; i < zeros; ++i) d[(first + i) % 3] = draw.oneIn(2) ? 0.0 : -0.0;
+        for (int i = 0; i < zeros; ++i) d[(first + i) % 3] = draw.oneIn(3) ? draw.logUniform(1e-18, 1e-3) : draw.oneIn(2) ? 0.0 : -0.0;
     } while (glm::length(d) < 0.05);
     return glm::normalize(d);
 }
@@ -127,7 +128,7 @@ TEST_CASE("nothing outside a primitive's span is solid") {
             const Found f = lookAt(row, Kind::outer, in_float, times(2'000));
             CHECK_MESSAGE(f.depth == 0, row.name << (in_float ? " in float" : ""));
             CHECK(f.negative > f.asked / 100);  // the rays did meet the shape
-            CHECK(f.empty > f.rays / 50);       // and some spans said that they do not
+            CHECK(f.empty > f.rays / 200);      // and some spans said that they do not: of a plane, those of parallel rays
             CHECK(f.empty < f.rays);
             if (!in_float) MESSAGE(row.name << ": " << f.rays << " rays, " << f.asked << " points, " << f.negative << " of them inside; " << f.empty << " spans are empty");
         }

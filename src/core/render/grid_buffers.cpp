@@ -15,6 +15,10 @@ constexpr std::size_t kGap = 64;  // unchanged blocks that are sent again rather
 std::uint32_t ballOf(const GridCell& cell, std::uint32_t flag) { return (std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f) & ~kWhole) | flag; }
 std::uint32_t listOf(const GridCell& cell) { return cell.kind == GridCell::Kind::far ? kNoItems : cell.first; }
 
+std::size_t coarseCells(const Grid& grid) {
+    return static_cast<std::size_t>(grid.dims().x) * static_cast<std::size_t>(grid.dims().y) * static_cast<std::size_t>(grid.dims().z);
+}
+
 template <class T> GLsizeiptr bytesOf(std::size_t n) { return static_cast<GLsizeiptr>(n * sizeof(T)); }
 
 }  // namespace
@@ -38,7 +42,7 @@ bool GridBuffers::reserve(Store& store, std::size_t bytes, GLenum texel) {
 /// The blocks of all coarse cells, or the pieces in which some have changed.
 void GridBuffers::writeCells(Grid& grid, bool whole) {
     const std::span<const GridCell> cells = grid.cells();
-    const std::size_t blocks = static_cast<std::size_t>(grid.dims().x) * static_cast<std::size_t>(grid.dims().y) * static_cast<std::size_t>(grid.dims().z);
+    const std::size_t blocks = coarseCells(grid);
     std::vector<std::uint32_t> changed = grid.takeChangedCells(), balls, lists;
     const std::size_t bytes = blocks * kBlock * sizeof balls[0];
     const bool cells_gone = reserve(cells_, bytes, GL_R32UI), lists_gone = reserve(lists_, bytes, GL_R32UI);
@@ -67,10 +71,11 @@ void GridBuffers::writeCells(Grid& grid, bool whole) {
 
 std::string GridBuffers::upload(Grid& grid, const Packed& packed) {
     const std::size_t records = packed.leaves.size() * sizeof(GpuNode) + packed.branches.size() * sizeof(GpuNode) + packed.materials.size() * sizeof(GpuMaterial);
+    const std::size_t cells = kBlock * coarseCells(grid);
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (std::max({kBlock * grid.cells().size(), grid.items().size(), records / sizeof(glm::vec4)}) > static_cast<std::size_t>(most))
-        return fmt::format("the scene needs {} cells, {} items and {} numbers; this driver's buffer textures hold {}", grid.cells().size(),
+    if (std::max({cells, grid.items().size(), records / sizeof(glm::vec4)}) > static_cast<std::size_t>(most))
+        return fmt::format("the scene needs {} cells, {} items and {} numbers; this driver's buffer textures hold {}", cells,
                            grid.items().size(), records / sizeof(float), most);
 
     const bool whole = generation_ != grid.generation();

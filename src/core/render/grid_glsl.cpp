@@ -81,18 +81,23 @@ struct Flavour {
     bool looks_ahead = false;
     int spaces = 1;  // within one another, at most
 };
-constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", "leafDistance(item.code, at, q - node.position.xyz, node)", "min(top, value)", "foldDistances(item.how, top, value, k)",
-                       "top = wrapDistance(item.code, top, at, node)", "min(top, cell.safe)"};
+#define MB_LEAF "leafDistance(item.code, at, q - node.position.xyz, node)"
+#define MB_FOLD "foldDistances(item.how, top, value, k)"
+#define MB_FOLD_FOUND                                                                                                     \
+    "foundBoth(foldDistances(item.how, top.distance, value.distance, k), "                                               \
+    "shareOfSecond(item.how, top.distance, value.distance, k), top, value)"
 constexpr std::string_view kAheadHead = "float lookAhead(vec3 p, vec3 d, Cell cell, out int leaf, out Ahead ahead)";
+constexpr Flavour kMap{"float", "float map(vec3 p)", "EMPTY", MB_LEAF, "min(top, value)", MB_FOLD,
+                       "top = wrapDistance(item.code, top, at, node)", "min(top, cell.safe)"};
 constexpr Flavour kAhead{"float", kAheadHead, kMap.empty, kMap.leaf, kMap.join, kMap.fold, kMap.wrap, kMap.result, true};
 /// Where every surface is one leaf's own, the march keeps whose.
-constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(leafDistance(item.code, at, q - node.position.xyz, node), item.record)", "nearer(top, value)",
-                        "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
+constexpr Flavour kLead{"Lead", kAheadHead, "Lead(EMPTY, -1)", "Lead(" MB_LEAF ", item.record)", "nearer(top, value)", MB_FOLD_FOUND,
                         "", "min(top.distance, cell.safe)", true};
-constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(leafDistance(item.code, at, q - node.position.xyz, node), item.record, at)",
-                           "nearer(top, value)",
-                           "foundBoth(foldDistances(item.how, top.distance, value.distance, k), shareOfSecond(item.how, top.distance, value.distance, k), top, value)",
-                           "top.distance = wrapDistance(item.code, top.distance, at, node)", "nearer(top, foundLeaf(cell.safe, -1, p))"};
+constexpr Flavour kNearest{"Nearest", "Nearest nearest(vec3 p)", "foundLeaf(EMPTY, -1, p)", "foundLeaf(" MB_LEAF ", item.record, at)", "nearer(top, value)",
+                           MB_FOLD_FOUND, "top.distance = wrapDistance(item.code, top.distance, at, node)", "nearer(top, foundLeaf(cell.safe, -1, p))"};
+#undef MB_LEAF
+#undef MB_FOLD
+#undef MB_FOLD_FOUND
 
 /// Registers NAME, NAME1, NAME2 … as a stack: what moves them up, or down.
 std::string shifted(std::string_view name, int depth, bool up) {

@@ -38,7 +38,7 @@ struct Builder {
     const Scene& scene;
     Tree tree;
     int on_stack = 0, warps = 0, object = 0;
-    double eased = 1;      // what a metre at the surface is in the value last left: a warp divides by its stretch. Of several, the least
+    double eased = 1;      // what a metre at the surface is in the value last left: a warp divides by its stretch. Of several, the greatest
     bool in_part = false;  // below an operator that is not a plain union
 
     void push(Instruction::Kind kind, std::size_t index) {
@@ -83,14 +83,14 @@ struct Builder {
 
     bool addUnion(std::size_t i, const Frame& frame) {
         bool any = false;
-        double least = 1;
+        double greatest = 0;
         for (std::size_t child = i + 1, end = subtreeEnd(scene, i); child < end; child = subtreeEnd(scene, child)) {
             if (!add(child, frame)) continue;
             join(any);
             any = true;
-            least = std::min(least, eased);
+            greatest = std::max(greatest, eased);
         }
-        eased = least;
+        eased = greatest;
         return any;
     }
 
@@ -99,7 +99,7 @@ struct Builder {
         const std::size_t branch = tree.branches.size();
         tree.branches.push_back({&op, scaled(scene.objects[i], frame.scale)[0], i, {}, frame.rotation, frame.position, warps});
         bool any = false;
-        double least = 1;
+        double greatest = 0;
         for (std::size_t child = i + 1, end = subtreeEnd(scene, i); child < end; child = subtreeEnd(scene, child)) {
             const bool left_value = add(child, frame);
             if (left_value && any) push(Instruction::Kind::fold, branch);
@@ -108,9 +108,10 @@ struct Builder {
             const bool needed = op.intersects || op.min_children > 1 || (op.first_only && child == i + 1);
             if (!left_value && needed) return rewind(start), false;
             any = any || left_value;
-            if (left_value) least = std::min(least, eased);
+            if (left_value) greatest = std::max(greatest, eased);
         }
-        eased = least;
+        eased = greatest;
+        if (op.parameters[0].isLength()) tree.branches[branch].blend *= eased;
         return any;
     }
 
