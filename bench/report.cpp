@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 
 namespace mb::bench {
 

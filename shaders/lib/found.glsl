@@ -49,7 +49,7 @@ Nearest foundLeaf(float distance, int leaf, vec3 at) {
 // from other centres. Set where a ray arrives.
 float tie = 0.0;
 
-// The same for a march: no more than whose the surface is.
+// What a march keeps: no more than whose the surface is.
 struct Lead {
     float distance;
     int leaf;
@@ -57,6 +57,7 @@ struct Lead {
 Lead nearer(Lead a, Lead b) { return Lead(min(a.distance, b.distance), b.distance < a.distance - tie ? b.leaf : a.leaf); }
 Lead foundBoth(float distance, float share, Lead a, Lead b) { return Lead(distance, share > 0.5 ? b.leaf : a.leaf); }
 
+// The nearer of two.
 Nearest nearer(Nearest a, Nearest b) {
     Nearest first = a;
     if (b.distance < a.distance - tie) first = b;

@@ -56,14 +56,13 @@ template <class F> constexpr ForScalars<WarpFunction> warping(F) {
 }
 
 template <int N, class F, class S, class O, class I>
-constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share, O span, I inner) {
+constexpr Operator fold(Operator o, const Parameter (&parameters)[N], F f, S share, O, I) {
     if (N != 1 || parameters[0].size != 1) throw "a fold takes one number";
     o.kind = Operator::Kind::fold, o.parameters = parameters;
     o.fold_by = folding(f), o.share_by = sharing(share);
     using Span = sdf::Vec2<double>;
     o.span_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*O{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };
     o.inner_by = [](Span a, Span a_inner, Span b, Span b_inner) { return (sdf::Sdf<double>{}.*I{}(sdf::Sdf<double>{}))(a, a_inner, b, b_inner); };
-    (void)span, (void)inner;
     return o;
 }
 /// A row whose parameters, with the derived ones, do not match the GLSL function does not compile.

@@ -114,20 +114,17 @@ template <class F> constexpr void checkSpan(const Primitive& p, F f) {
     for (const Parameter& parameter : p.parameters) declared += parameter.size;
     if (declared != sdf::spanNumbers(f(sdf::Sdf<float>{}))) throw "the parameters do not match the span's";
 }
+template <class R, class F> sdf::Vec2<R> spanWith(sdf::Vec3<R> o, sdf::Vec3<R> d, const double* k) { return sdf::span(F{}(sdf::Sdf<R>{}), o, d, k); }
 /// The row with its span: where a ray may be inside it.
 template <class F> constexpr Primitive spanned(std::string_view span, F f, Primitive p) {
     checkSpan(p, f);
-    p.span = span;
-    p.span_f32 = [](sdf::Vec3<float> o, sdf::Vec3<float> d, const double* k) { return sdf::span(F{}(sdf::Sdf<float>{}), o, d, k); };
-    p.span_f64 = [](sdf::Vec3<double> o, sdf::Vec3<double> d, const double* k) { return sdf::span(F{}(sdf::Sdf<double>{}), o, d, k); };
+    p.span = span, p.span_f32 = spanWith<float, F>, p.span_f64 = spanWith<double, F>;
     return p;
 }
 /// And with its inner span: where a ray is inside it for certain.
 template <class F> constexpr Primitive filled(std::string_view inner, F f, Primitive p) {
     checkSpan(p, f);
-    p.inner = inner;
-    p.inner_f32 = [](sdf::Vec3<float> o, sdf::Vec3<float> d, const double* k) { return sdf::span(F{}(sdf::Sdf<float>{}), o, d, k); };
-    p.inner_f64 = [](sdf::Vec3<double> o, sdf::Vec3<double> d, const double* k) { return sdf::span(F{}(sdf::Sdf<double>{}), o, d, k); };
+    p.inner = inner, p.inner_f32 = spanWith<float, F>, p.inner_f64 = spanWith<double, F>;
     return p;
 }
 #define MB_SPAN(name) #name, MB_FUNCTION(name)
