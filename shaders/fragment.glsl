@@ -2,8 +2,8 @@
 #extension GL_ARB_gpu_shader5 : enable
 // One pixel of the picture: send a ray, march it, shade what it meets, follow its reflection.
 //
-// The program writes above this text what the scene calls for (EFFECT_… definitions and array sizes), and in place of
-// "scene.glsl" the scene's own map() and nearest(). All positions are relative to the eye, so that a scene far from the
+// The program writes above this text what the scene calls for (EFFECT_… definitions and array sizes), in place of "scene.glsl"
+// the scene's own map() and nearest(), and where "#effects" stands what the effects called for do there. All positions are relative to the eye, so that a scene far from the
 // world's origin loses nothing; lengths are metres.
 
 #include "sdf/dialect.glsl"
@@ -19,16 +19,19 @@
 #include "lib/march.glsl"
 #include "lib/normal.glsl"
 #include "lib/material.glsl"
-#include "lib/shadow.glsl"
+#include "lib/spread.glsl"
+#effects files
 #include "lib/phong.glsl"
 
 layout(location = 0) out vec4 out_color;
 #ifdef COUNTED
 layout(location = 1) out vec4 out_surface;      // normal, depth
-layout(location = 2) out vec4 out_ray;          // object, steps, state
-layout(location = 3) out vec4 out_evaluations;  // primary, normal, shadow, reflection
-layout(location = 4) out vec4 out_rays;         // shadow, reflection; undecided ones of each
-layout(location = 5) out vec4 out_touched;      // primitives, in turn as evaluations
+layout(location = 2) out vec4 out_ray;          // object, steps, state; uses of the counted row
+layout(location = 3) out vec4 out_primary;      // evaluations, primitives touched
+layout(location = 4) out vec4 out_shadow;       // evaluations, primitives touched, rays, undecided ones
+layout(location = 5) out vec4 out_reflection;
+layout(location = 6) out vec4 out_soft;
+layout(location = 7) out vec4 out_occlusion;
 #else
 layout(location = 1) out vec4 out_undecided;    // 1 for a pixel whose own ray is
 #endif
@@ -55,10 +58,9 @@ void main() {
         }
 
         if (bounce == 0) keepPrimary(march, surface.normal, surface.object);
+#effects air
         color += weight * phong(surface, ray.direction);
-        weight *= surface.reflectance;
-        if (weight < LEAST_WEIGHT) break;
-        ray = reflectRay(ray, surface);
+#effects onward
     }
 
     if (cut_short) outcome.state = UNDECIDED;
@@ -67,10 +69,12 @@ void main() {
     gl_FragDepth = depthOf(outcome.depth);
 #ifdef COUNTED
     out_surface = vec4(outcome.normal, outcome.depth);
-    out_ray = vec4(outcome.object, outcome.steps, float(outcome.state), 0.0);
-    out_evaluations = vec4(outcome.evaluations);
-    out_rays = vec4(outcome.rays);
-    out_touched = vec4(outcome.touched);
+    out_ray = vec4(outcome.object, outcome.steps, float(outcome.state), float(row_uses));
+    out_primary = vec4(counts[PRIMARY].xy, counts[NORMAL].xy);
+    out_shadow = vec4(counts[SHADOW]);
+    out_reflection = vec4(counts[REFLECTION]);
+    out_soft = vec4(counts[SOFT]);
+    out_occlusion = vec4(counts[OCCLUSION]);
 #else
     out_undecided = vec4(outcome.state == UNDECIDED ? 1.0 : 0.0);
 #endif

@@ -14,11 +14,13 @@ struct Material {
     vec4 color;     // w: Ka
     vec4 color2;    // w: Kd
     vec4 phong;     // Ks, Kr, C; w: the pattern
+    vec4 extra;     // the numbers of the keys that effects bring, as in the other records
 };
 
 struct Light {
     vec4 position;  // relative to the eye
     vec4 color;     // times the intensity
+    vec4 extra;
 };
 
 struct Frame {
@@ -28,12 +30,15 @@ struct Frame {
     vec4 picture;     // width, height, and the sample's place in its pixel, from the centre
     vec4 reach;       // march epsilon, max distance, normal epsilon, size of the largest thing in the scene
     vec4 background;  // w: 1 in the pass that counts as a sample, 0 in one that adds further lights to it
-    ivec4 limits;     // march steps, shadow steps, reflections; 1 to show undecided pixels
+    ivec4 limits;     // march steps, shadow steps, reflections planned; 1 to show undecided pixels
     vec4 grid_corner; // of the grid's first cell, relative to the eye; w: a coarse cell's size
     vec4 box_lo;      // of all that has bounds, relative to the eye; w: cells a metre
     vec4 box_hi;
     ivec4 grid_size;  // coarse cells; items of the list of what has no bounds
     ivec4 pass;       // the first light of this pass and the one after its last; 1 for the pass that adds the ambient light; leaves and operators in all
+    vec4 world_extra;
+    vec4 render_extra;
+    ivec4 counted;    // the number of the row whose uses are counted
 };
 
 layout(std140) uniform FrameBlock { Frame frame; };
@@ -41,7 +46,7 @@ layout(std140) uniform FrameBlock { Frame frame; };
 // Records of thousands of objects: vec4s of one buffer texture, the leaves, the operators, then the materials.
 uniform samplerBuffer records;
 const int NODE_TEXELS = 5;
-const int MATERIAL_TEXELS = 3;
+const int MATERIAL_TEXELS = 4;
 vec4 recordTexel(int i) { return texelFetch(records, i); }
 Node recordAt(int record) {
     int i = record * NODE_TEXELS;
@@ -50,7 +55,7 @@ Node recordAt(int record) {
 Node leafRecord(int leaf) { return recordAt(leaf); }
 Material materialRecord(int material) {
     int i = frame.pass.w * NODE_TEXELS + material * MATERIAL_TEXELS;
-    return Material(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2));
+    return Material(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2), recordTexel(i + 3));
 }
 #else
 layout(std140) uniform LeafBlock { Node leaves[LEAVES]; };
@@ -59,7 +64,9 @@ layout(std140) uniform MaterialBlock { Material materials[MATERIALS]; };
 Node leafRecord(int leaf) { return leaves[leaf]; }
 Material materialRecord(int material) { return materials[material]; }
 #endif
+#ifdef EFFECT_LIGHT
 layout(std140) uniform LightBlock { Light lights[LIGHTS]; };
+#endif
 
 // A point in a record's frame; a direction in it; and a direction of it. Where nothing in the scene is turned, the axes are
 // not even read.

@@ -4,7 +4,17 @@
 struct Look {
     vec4 color;  // w: Ka
     vec4 phong;  // Kd, Ks, Kr, C
+#ifdef MATERIAL_EXTRA
+    vec4 extra;
+#endif
 };
+Look mixed(Look a, Look b, float share) {
+#ifdef MATERIAL_EXTRA
+    return Look(mix(a.color, b.color, share), mix(a.phong, b.phong, share), mix(a.extra, b.extra, share));
+#else
+    return Look(mix(a.color, b.color, share), mix(a.phong, b.phong, share));
+#endif
+}
 
 struct Nearest {
     float distance;
@@ -27,9 +37,14 @@ Look lookOf(int leaf, vec3 at) {
     Material material = materialRecord(int(leafRecord(max(leaf, 0)).position.w));
     vec3 color = material.color.rgb;
 #ifdef EFFECT_CHECKER
+    uses(EFFECT_CHECKER, 1);
     if (material.phong.w != 0.0 && isDarkField(at)) color = material.color2.rgb;
 #endif
+#ifdef MATERIAL_EXTRA
+    return Look(vec4(color, material.color.w), vec4(material.color2.w, material.phong.xyz), material.extra);
+#else
     return Look(vec4(color, material.color.w), vec4(material.color2.w, material.phong.xyz));
+#endif
 }
 #ifdef EFFECT_BLEND
 Look lookOf(Nearest found) { return found.look; }
@@ -70,7 +85,8 @@ Nearest foundBoth(float distance, float share, Nearest a, Nearest b) {
     if (share > 0.5) both = b;
     both.distance = distance;
 #ifdef EFFECT_BLEND
-    both.look = Look(mix(a.look.color, b.look.color, share), mix(a.look.phong, b.look.phong, share));
+    uses(EFFECT_BLEND, 1);
+    both.look = mixed(a.look, b.look, share);
 #endif
     return both;
 }

@@ -229,13 +229,7 @@ bool looksLikeSurface(March march) {
 }
 
 void countMarch(int bounce, March march) {
-    if (bounce == 0) {
-        count(PRIMARY, march.evaluations);
-    } else {
-        count(REFLECTION, march.evaluations);
-        outcome.rays.y += 1;
-        outcome.rays.w += march.state == UNDECIDED ? 1 : 0;
-    }
+    countRay(bounce == 0 ? PRIMARY : REFLECTION, march.evaluations, march.state);
 }
 
 void keepPrimary(March march, vec3 normal, float object) {

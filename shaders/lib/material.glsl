@@ -7,6 +7,7 @@ struct Surface {
     float object;
     vec3 color;
     float ambient, diffuse, specular, shininess, reflectance;
+    Look look;           // the same, with what effects add
 };
 
 Surface surfaceAt(Ray ray, March march) {
@@ -34,6 +35,7 @@ Surface surfaceAt(Ray ray, March march) {
     s.specular = look.phong.y;
     s.reflectance = look.phong.z;
     s.shininess = look.phong.w;
+    s.look = look;
     return s;
 }
 
@@ -63,14 +65,3 @@ bool hasInside(Surface s, March march, vec3 direction) {
 #else
 bool hasInside(Surface s, March march, vec3 direction) { return true; }
 #endif
-
-const float LEAST_WEIGHT = 1.0 / 512.0;  // a reflection fainter than half a step of an 8-bit picture is not followed
-
-// The reflected ray starts on its own line, as far along it as brings it a bias away from the surface: a start moved along
-// the normal would be another ray, and between mirrors the shifts add up. A flat one is moved along the normal as well.
-Ray reflectRay(Ray ray, Surface s) {
-    vec3 direction = normalize(reflect(ray.direction, s.normal));
-    float bias = biasAt(s.travelled), rise = dot(direction, s.normal);
-    float along = bias / max(rise, 0.25);
-    return Ray(s.position + direction * along + s.normal * (bias - along * rise), direction, s.travelled + along);
-}

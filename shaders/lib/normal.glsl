@@ -41,7 +41,7 @@ vec3 leafNormal(vec3 at, Node node, float h, vec3 direction) {
         vec3 along = vec3(axis == 0, axis == 1, axis == 2) * ((i & 1) == 0 ? 1.0 : -1.0);
         gradient += along * leafDistance(code, at + along * h, at + along * h, node);
     }
-    touches += 6;
+    touch(6);
     count(NORMAL, 0);
     vec3 g = turnedBack(gradient, node) / (2.0 * h);
     g *= dot(g, direction) > 0.0 ? -1.0 : 1.0;

@@ -43,7 +43,7 @@ void run(const Options& options, const Common& common) {
         for (const Plan::Called& c : plan.called)
             if (c.effect == &effect) by = c.by;
         json["effects"].push_back({{"name", effect.name}, {"called", !by.empty()}, {"by", by}, {"evaluations", cost(effect.name)},
-                                   {"what", effect.what}});
+                                   {"what", effect.tip}});
     }
     if (options.json) return writeText("-", json.dump() + '\n');
 

@@ -115,7 +115,13 @@ private:
 };
 
 nlohmann::ordered_json byKind(const Counts::ByKind& k) {
-    return {{"primary", k.primary}, {"normal", k.normal}, {"shadow", k.shadow}, {"reflection", k.reflection}};
+    return {{"primary", k.primary}, {"normal", k.normal}, {"shadow", k.shadow}, {"reflection", k.reflection}, {"soft", k.soft}, {"occlusion", k.occlusion}};
+}
+
+nlohmann::ordered_json rays(const Counts::ByKind& k) {
+    nlohmann::ordered_json json = byKind(k);
+    json.erase("normal");
+    return json;
 }
 
 /// What the first frame took, then the later ones; `grid` is the first frame's work.
@@ -125,10 +131,11 @@ nlohmann::ordered_json statistics(const Renderer& renderer, const Measured& m, d
     nlohmann::ordered_json json = {
         {"width", m.channels.size.x}, {"height", m.channels.size.y},
         {"frame_ms", later_ms[later_ms.size() / 2]}, {"first_frame_ms", first_ms},
-        {"rays", {{"primary", c.rays.primary}, {"shadow", c.rays.shadow}, {"reflection", c.rays.reflection}}},
+        {"rays", rays(c.rays)},
         {"evaluations", byKind(c.evaluations)}, {"touched", byKind(c.touched)},
         {"pixels", {{"hit", c.pixels.hit}, {"miss", c.pixels.miss}, {"undecided", c.pixels.undecided}}},
-        {"undecided_rays", {{"shadow", c.undecided_rays.shadow}, {"reflection", c.undecided_rays.reflection}}}};
+        {"undecided_rays", rays(c.undecided_rays)}};
+    json["undecided_rays"].erase("primary");  // pixels.undecided
     json["effects"] = nlohmann::ordered_json::array();
     for (const Plan::Called& called : renderer.plan().called) json["effects"].push_back(called.effect->name);
     if (grid.whole) json["grid"] = {{"cells", grid.cells}, {"evaluations", grid.evaluations}, {"build_ms", grid.ms}};
@@ -156,7 +163,7 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     const double first_ms = drawTimed(renderer, scene, camera, size);
     const GridWork grid = renderer.gridWork();
     const std::vector<glm::vec3> picture = renderer.readPicture();
-    orDiskFault(writePng(options.out, size, picture));
+    orDiskFault(writePng(options.out, size, renderer.readShown()));
     if (const std::size_t undecided = renderer.countUndecided(); undecided > 0 && !common.quiet)
         fmt::print(stderr, "{}: note: {} of {} pixels hold an undecided ray ({:.3f} %); --set show_undecided=1 shows them\n",
                    options.scene, undecided, picture.size(), 100.0 * static_cast<double>(undecided) / static_cast<double>(picture.size()));
@@ -190,7 +197,7 @@ void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const 
     for (int i = 0; i < options.frames; ++i) {
         motion.advanceTo(options.at_s + i / options.fps, scene, quiet);
         orInputFault(renderer.draw(scene, chooseCamera(scene, options.camera), size));
-        const std::vector<glm::vec3> picture = renderer.readPicture();
+        const std::vector<glm::vec3> picture = renderer.readShown();
         if (film) film->add(encodeSrgb(picture));
         else orDiskFault(writePng(name.of(i), size, picture));
         progress.show(static_cast<std::uint64_t>(i) + 1);

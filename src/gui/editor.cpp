@@ -49,7 +49,7 @@ int childrenOf(const Scene& scene, std::size_t index) {
 void unbody(Object& o) {
     const Object plain;
     for (const Key<Object>& key : keys<Object>())
-        if (key.body) std::visit([&](auto member) { o.*member = plain.*member; }, key.member);
+        if (key.body) std::visit([&](auto member) { valueAt(o, member) = valueAt(plain, member); }, key.member);
 }
 
 }  // namespace

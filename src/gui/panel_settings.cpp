@@ -92,7 +92,7 @@ void drawPicture(Ui& ui) {
     for (const Plan::Called& called : ui.plan.called) {
         ImGui::TextUnformatted(called.effect->name.data(), called.effect->name.data() + called.effect->name.size());
         ImGui::SameLine();
-        ui::remark(fmt::format("{}; called for by {}", called.effect->what, called.by));
+        ui::remark(fmt::format("{}; called for by {}", called.effect->tip, called.by));
     }
     if (!ui.plan.refused.empty()) ui::remark(ui.plan.refused);
     ui::remark(fmt::format("passes: {}, at most {} loop iterations a pixel", ui.plan.passes.size(), ui.plan.loop_iterations));

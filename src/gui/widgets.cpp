@@ -134,6 +134,11 @@ template <class Record> bool field(const Key<Record>& key, Record& record) {
         const Key<Record>& key;
         Record& record;
         bool operator()(double Record::*m) const { return numbers(rowOf(key), &(record.*m), 1); }
+        bool operator()(Slot slot) const {
+            Row row = rowOf(key);
+            row.whole = slot.whole;
+            return numbers(row, &valueAt(record, slot), 1);
+        }
         bool operator()(int Record::*m) const {
             Row row = rowOf(key);
             row.whole = true;

@@ -176,7 +176,7 @@ TEST_CASE("render writes the picture, its channels and its statistics") {
     CHECK(stats["evaluations"]["primary"] == evaluations);
     CHECK(stats["rays"]["primary"] == 64 * 36);
     CHECK(stats["rays"]["reflection"] == 0);
-    CHECK(stats["effects"] == nlohmann::json({"light", "shadow"}));
+    CHECK(stats["effects"] == nlohmann::json({"hard shadow", "specular", "light"}));
     CHECK(stats["frame_ms"] > 0);
     CHECK(stats["renderer"] != "");
 

@@ -58,7 +58,7 @@ TEST_CASE("every member of every block lies where C++ puts it") {
     std::string uses = "#version 330 core\n#include \"lib/blocks.glsl\"\nout vec4 sum;\nvoid main() { sum = branches[0].position\n";
     for (const BlockMember& m : blockMembers()) uses += fmt::format(" + vec4({})\n", m.name);
     texts["offsets.glsl"] = uses + "; }\n";
-    const Program program = makeProgram(resolve(texts, "offsets.glsl", head(Plan{}, {2, 2, 2, 2}, false)));
+    const Program program = makeProgram(resolve(texts, "offsets.glsl", "#define EFFECT_LIGHT 1\n" + head(Plan{}, {2, 2, 2, 2}, false)));
     REQUIRE_MESSAGE(program.usable(), program.log);
     for (const BlockMember& m : blockMembers()) {
         CAPTURE(m.name);
@@ -126,6 +126,7 @@ TEST_CASE("what cannot be drawn says so and leaves the last picture") {
     renderer.setEvaluation(Evaluation::automatic);
 
     Scene deep = testScene();
+    for (Material& m : deep.materials) m.kr = 1;  // every bounce is worth following
     deep.render.reflections = 64, deep.render.march_steps = 8192;
     CHECK(renderer.draw(deep, camera, {40, 30}).find("reflections:64") != std::string::npos);
     CHECK(renderer.readPicture() == picture);

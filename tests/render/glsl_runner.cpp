@@ -32,7 +32,7 @@ std::string mainCalling(const std::vector<std::string>& tests) {
 
 /// The picture that the tests' frame is of.
 GpuFrame testFrame() {
-    GpuFrame frame = packFrame({}, {"", {0, 0, 0}, {0, 0, -1}, 90, 0}, {64, 48});
+    GpuFrame frame = packFrame({}, {"", {0, 0, 0}, {0, 0, -1}, 90, 0}, {64, 48}, 0);
     frame.reach.w = 1;
     frame.pass = {0, 0, 1, 0};
     return frame;
@@ -59,7 +59,7 @@ GlslResults runGlslTests(std::string_view path, std::string_view text) {
     texts["tests.glsl"] = fmt::format("#version 330 core\n#include \"prelude.glsl\"\n#include \"sdf/dialect.glsl\"\n#include \"sdf/domains.glsl\"\n"
                                       "#include \"{}\"\n#include \"main.glsl\"\n", path);
     const Composed composed = resolve(texts, "tests.glsl", "#define LEAVES 1\n#define BRANCHES 1\n#define MATERIALS 1\n#define LIGHTS 1\n"
-                                                          "#define EFFECT_CHECKER\n");
+                                                          "#define EFFECT_CHECKER 1\n#define COUNTED\n");
     const Program program = makeProgram(composed);
     if (!program.usable()) {
         results.compile_error = program.log;

@@ -28,20 +28,20 @@ std::vector<std::string_view> names(const Plan& plan) {
 TEST_CASE("only what the scene calls for is planned") {
     const auto planned = [](const Scene& s) { return names(makePlan(s, makeTree(s))); };
     CHECK(planned(scene(0, 0)).empty());
-    CHECK(planned(scene(0, 1)) == std::vector<std::string_view>{"light", "shadow"});
+    CHECK(planned(scene(0, 1)) == std::vector<std::string_view>{"hard shadow", "specular", "light"});
     CHECK(planned(scene(0.5, 0)) == std::vector<std::string_view>{"reflection"});
     CHECK(planned(scene(0, 0, Pattern::checker)) == std::vector<std::string_view>{"checker"});
 
     Scene no_shadow = scene(0.5, 1);
     no_shadow.render.shadow_steps = 0, no_shadow.render.reflections = 0;
-    CHECK(planned(no_shadow) == std::vector<std::string_view>{"light"});
+    CHECK(planned(no_shadow) == std::vector<std::string_view>{"specular", "light"});
 
     Scene unused = scene(0, 0);
     unused.materials.push_back({"mirror", {1, 1, 1}, {1, 1, 1}, Pattern::checker, 0, 0, 0, 1, 1});
     CHECK(planned(unused).empty());  // nothing shows that material
 
     Scene reason = scene(0.25, 1);
-    CHECK(makePlan(reason, makeTree(reason)).called.back().by == "material 'm' (Kr:0.25) of object 'sphere 0'");
+    CHECK(makePlan(reason, makeTree(reason)).called.back().by == "material 'm' (Kr:0.25)");
 }
 
 TEST_CASE("a matte scene makes no reflection, an unlit one no shadow") {

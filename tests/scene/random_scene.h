@@ -59,7 +59,11 @@ private:
     template <class Record> void fill(Record& record, const std::string& name) {
         for (const Key<Record>& key : keys<Record>()) {
             if (!key.required && below(3) == 0) continue;
-            std::visit([&](auto member) { set(record.*member, key.lo, key.hi, name); }, key.member);
+            std::visit([&](auto member) {
+                set(valueAt(record, member), key.lo, key.hi, name);
+                if constexpr (std::is_same_v<decltype(member), Slot>)
+                    if (member.whole) valueAt(record, member) = std::floor(valueAt(record, member));
+            }, key.member);
         }
     }
     // Not inlined: g++ 12 takes members of the one record for those of another.

@@ -2,62 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mb {
 namespace {
 
-/// The first leaf whose material `asks`, as a sentence, or nothing.
-template <class F> std::string firstMaterial(const Scene& scene, const Tree& tree, F asks) {
-    for (const Leaf& leaf : tree.leaves) {
-        const Material& material = materialOf(scene, leaf.material);
-        if (const std::string why = asks(material); !why.empty())
-            return fmt::format("material '{}' ({}) of object '{}'", material.name, why, label(scene, leaf.index));
-    }
-    return {};
+/// How many bounces are worth following: to the last whose weight is a step of an 8-bit picture (LEAST_WEIGHT in
+/// shaders/lib/effects/reflection.glsl), and no more than the knob allows.
+int bouncesOf(const Scene& scene, const Tree& tree) {
+    double largest = 0;
+    for (const Leaf& leaf : tree.leaves) largest = std::max(largest, materialOf(scene, leaf.material).kr);
+    int bounces = 0;
+    for (double weight = largest; weight >= 1.0 / 255 && bounces < scene.render.reflections; weight *= largest) ++bounces;
+    return bounces;
 }
-
-std::string lightCalls(const Scene& scene, const Tree& tree) {
-    return scene.lights.empty() || tree.leaves.empty() ? "" : fmt::format("{} light record{}", scene.lights.size(), scene.lights.size() == 1 ? "" : "s");
-}
-std::string shadowCalls(const Scene& scene, const Tree& tree) {
-    if (lightCalls(scene, tree).empty() || scene.render.shadow_steps == 0) return {};
-    return fmt::format("{}, shadow_steps:{}", lightCalls(scene, tree), scene.render.shadow_steps);
-}
-std::string reflectionCalls(const Scene& scene, const Tree& tree) {
-    if (scene.render.reflections == 0) return {};
-    return firstMaterial(scene, tree, [](const Material& m) { return m.kr > 0 ? fmt::format("Kr:{}", m.kr) : ""; });
-}
-std::string checkerCalls(const Scene& scene, const Tree& tree) {
-    return firstMaterial(scene, tree, [](const Material& m) { return std::string(m.pattern == Pattern::checker ? "pattern:checker" : ""); });
-}
-std::string blendCalls(const Scene& scene, const Tree& tree) {
-    for (const Branch& b : tree.branches)
-        if (b.blend > 0) return fmt::format("object '{}' ({}:{})", label(scene, b.index), b.op->parameters[0].name, scene.objects[b.index].numbers[0]);
-    return {};
-}
-std::string sampleCalls(const Scene& scene, const Tree&) {
-    return scene.render.samples > 1 ? fmt::format("render samples:{}", scene.render.samples) : "";
-}
-
-constexpr Effect kEffects[] = {
-    {"light", "EFFECT_LIGHT", "diffuse and specular light from each light", lightCalls},
-    {"shadow", "EFFECT_SHADOW", "one marched ray to each light from each point that faces it", shadowCalls},
-    {"reflection", "EFFECT_REFLECTION", "marched rays from mirror to mirror", reflectionCalls},
-    {"checker", "EFFECT_CHECKER", "a pattern fixed to the object", checkerCalls},
-    {"blend", "EFFECT_BLEND", "rounded seams that carry the colours of both sides", blendCalls},
-    {"samples", "", "several rays a pixel", sampleCalls},
-};
 
 constexpr std::int64_t kRetry = 2;  // shaders/lib/march.glsl: primary budgets for the second tries of a pixel's rays
 
-/// Loop iterations of one pass of `lights` lights, each loop's last look at its condition included.
-std::int64_t iterations(const RenderKnobs& knobs, bool reflects, bool shadows, int lights) {
-    const std::int64_t bounces = reflects ? knobs.reflections + 1 : 1;
-    const int normal = 6, look = 1;
-    const std::int64_t light = look + (shadows ? knobs.shadow_steps + look : 0);
-    return look + kRetry * knobs.march_steps + bounces * (look + knobs.march_steps + look + normal + look + lights * light + look);
-}
+/// Loop iterations of one pass, each loop's last look at its condition included.
+struct Loops {
+    const RenderKnobs& knobs;
+    std::int64_t bounces = 1;        // and the first stretch
+    std::int64_t hard_rays = 0, soft_rays = 0, ambient_rays = 0;  // to a light, and from a point
+
+    std::int64_t of(int lights) const {
+        constexpr std::int64_t normal = 6, look = 1;
+        const std::int64_t ray = knobs.shadow_steps + look;
+        const auto many = [&](std::int64_t rays) { return rays > 0 ? rays * (look + ray) + look : 0; };
+        const std::int64_t light = look + hard_rays * ray + many(soft_rays);
+        return look + kRetry * knobs.march_steps +
+               bounces * (look + knobs.march_steps + look + normal + look + many(ambient_rays) + lights * light + look);
+    }
+};
 
 /// The first leaf with a number that is none, as a sentence, or nothing: min and max drop a NaN, and the shape would be
 /// missing from the picture without a word.
@@ -71,39 +48,68 @@ std::string notFinite(const Scene& scene, const Tree& tree) {
     return {};
 }
 
-}  // namespace
-
-std::span<const Effect> effects() { return kEffects; }
-
-bool Plan::has(std::string_view name) const {
-    for (const Called& c : called)
-        if (c.effect->name == name) return true;
-    return false;
+std::int64_t raysOf(const Plan& plan, const Scene& scene, std::string_view effect) {
+    return plan.has(effect) ? static_cast<std::int64_t>(scene.render.extra[slotOf(effectNamed(effect).keys.back())]) : 0;
 }
 
-Plan makePlan(const Scene& scene, const Tree& tree) {
+}  // namespace
+
+EffectSet everyEffect() {
+    EffectSet all;
+    for (std::size_t i = 0; i < effects().size(); ++i) all[i] = !effects()[i].ofMotion();
+    return all;
+}
+
+bool Plan::has(std::string_view name) const {
+    return std::ranges::any_of(called, [&](const Called& c) { return c.effect->name == name; });
+}
+
+Plan makePlan(const Scene& scene, const Tree& tree, const Choice& choice) {
     Plan plan;
-    for (const Effect& effect : kEffects)
-        if (std::string by = effect.calledForBy(scene, tree); !by.empty()) plan.called.push_back({&effect, std::move(by)});
+    for (std::size_t i = 0; i < effects().size(); ++i) {
+        const Effect& effect = effects()[i];
+        if (effect.ofMotion() || choice.off[i]) continue;
+        Calls calls(1);
+        effect.calls(effect, scene, tree, calls);
+        if (calls.any() || choice.on[i]) plan.called.push_back({&effect, calls.any() ? describe(scene, calls.found().front()) : std::string()});
+    }
 
     // As many lights a pass as the loop budget holds.
-    const bool reflects = plan.has("reflection"), shadows = plan.has("shadow");
+    if (plan.has("reflection")) plan.bounces = bouncesOf(scene, tree);
+    const bool hard = plan.has("hard shadow");
+    const Loops loops{scene.render, plan.bounces + 1, hard ? 1 : 0, raysOf(plan, scene, "soft shadow"), raysOf(plan, scene, "ambient occlusion")};
     const int lights = plan.has("light") ? static_cast<int>(scene.lights.size()) : 0;
-    const auto cost = [&](int n) { return iterations(scene.render, reflects, shadows, n); };
     int batch = lights;
-    while (batch > 1 && cost(batch) > kLoopBudget) batch = (batch + 1) / 2;
-    plan.loop_iterations = cost(batch);
+    while (batch > 1 && loops.of(batch) > kLoopBudget) batch = (batch + 1) / 2;
+    plan.loop_iterations = loops.of(batch);
     plan.refused = notFinite(scene, tree);
     if (plan.refused.empty() && plan.loop_iterations > kLoopBudget) {
+        std::string rays;
+        if (loops.soft_rays > 0) rays += fmt::format(", shadow_rays:{}", loops.soft_rays);
+        if (loops.ambient_rays > 0) rays += fmt::format(", ao_rays:{}", loops.ambient_rays);
         plan.refused = fmt::format(
-            "render: march_steps:{} and shadow_steps:{} with reflections:{} may take {} loop iterations a pixel, and software OpenGL "
+            "render: march_steps:{} and shadow_steps:{}{} with reflections:{} may take {} loop iterations a pixel, and software OpenGL "
             "ends a shader at {}: lower one of them until they need at most {}",
-            scene.render.march_steps, shadows ? scene.render.shadow_steps : 0, reflects ? scene.render.reflections : 0,
-            plan.loop_iterations, kLoopLimit, kLoopBudget);
+            scene.render.march_steps, hard || !rays.empty() ? scene.render.shadow_steps : 0, rays, plan.bounces, plan.loop_iterations, kLoopLimit, kLoopBudget);
     }
     plan.passes.push_back({0, std::min(batch, lights)});
     for (int first = batch; first < lights; first += batch) plan.passes.push_back({first, std::min(first + batch, lights)});
     return plan;
+}
+
+Scene withoutOperator(const Scene& scene, const Effect& effect) {
+    Scene without = scene;
+    const ShapeType& plain = *findShapeType("union");
+    for (std::size_t i = 0; i < without.objects.size() && effect.op; ++i) {
+        Object& o = without.objects[i];
+        if (o.type != effect.op) continue;
+        const bool first_only = effect.op->first_only;
+        o.type = &plain, o.numbers = initialNumbers(plain);
+        if (!first_only) continue;
+        for (std::size_t child = i + 1, end = subtreeEnd(without, i); child < end; child = subtreeEnd(without, child))
+            without.objects[child].hidden = without.objects[child].hidden || child > i + 1;
+    }
+    return without;
 }
 
 }  // namespace mb

@@ -12,10 +12,11 @@
 namespace mb {
 namespace {
 
+glm::vec4 asVec4(const Extra& extra) { return {extra[0], extra[1], extra[2], extra[3]}; }
 glm::vec4 with(glm::dvec3 v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 GpuMaterial packMaterial(const Material& m) {
-    return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}};
+    return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}, asVec4(m.extra)};
 }
 
 GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, const LeafNumbers& k, double object, std::ptrdiff_t row) {
@@ -65,11 +66,11 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
         packed.branches.push_back(packNode(branch.warps > 0 ? branch.position : branch.position - origin, branch.blend, branch.rotation,
                                            branch.numbers, 0, branch.op - operators().data()));
     for (const Light& light : scene.lights)
-        packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1)});
+        packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1), asVec4(light.extra)});
     return packed;
 }
 
-GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size, int bounces) {
     const View view = viewOf(camera);
     const double aspect = static_cast<double>(size.x) / size.y;
     const RenderKnobs& knobs = scene.render;
@@ -81,7 +82,9 @@ GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size) {
     frame.picture = {size.x, size.y, 0, 0};
     frame.reach = {knobs.march_epsilon, knobs.max_distance, knobs.normal_epsilon, 0};
     frame.background = with(scene.world.background, 1);
-    frame.limits = {knobs.march_steps, knobs.shadow_steps, knobs.reflections, knobs.show_undecided};
+    frame.limits = {knobs.march_steps, knobs.shadow_steps, bounces, knobs.show_undecided};
+    frame.world_extra = asVec4(scene.world.extra), frame.render_extra = asVec4(knobs.extra);
+    frame.counted = glm::ivec4{-1};
     return frame;
 }
 
@@ -92,12 +95,14 @@ std::span<const BlockMember> blockMembers() {
         MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"),
         MB_AT(GpuFrame, background, "frame.background"), MB_AT(GpuFrame, limits, "frame.limits"), MB_AT(GpuFrame, pass, "frame.pass"),
         MB_AT(GpuFrame, grid_corner, "frame.grid_corner"), MB_AT(GpuFrame, box_lo, "frame.box_lo"), MB_AT(GpuFrame, box_hi, "frame.box_hi"),
-        MB_AT(GpuFrame, grid_size, "frame.grid_size"),
+        MB_AT(GpuFrame, grid_size, "frame.grid_size"), MB_AT(GpuFrame, world_extra, "frame.world_extra"),
+        MB_AT(GpuFrame, render_extra, "frame.render_extra"), MB_AT(GpuFrame, counted, "frame.counted"),
         MB_AT(GpuNode, position, "leaves[0].position"), MB_AT(GpuNode, x_axis, "leaves[0].x_axis"),
         MB_AT(GpuNode, y_axis, "leaves[0].y_axis"), MB_AT(GpuNode, z_axis, "leaves[0].z_axis"), MB_AT(GpuNode, numbers, "leaves[0].numbers"),
         MB_AT(GpuMaterial, color, "materials[0].color"), MB_AT(GpuMaterial, color2, "materials[0].color2"),
-        MB_AT(GpuMaterial, phong, "materials[0].phong"), MB_AT(GpuLight, position, "lights[0].position"),
-        MB_AT(GpuLight, color, "lights[0].color"),
+        MB_AT(GpuMaterial, phong, "materials[0].phong"), MB_AT(GpuMaterial, extra, "materials[0].extra"),
+        MB_AT(GpuLight, position, "lights[0].position"),
+        MB_AT(GpuLight, color, "lights[0].color"), MB_AT(GpuLight, extra, "lights[0].extra"),
         {"leaves[1].position", sizeof(GpuNode)}, {"materials[1].color", sizeof(GpuMaterial)}, {"lights[1].position", sizeof(GpuLight)},
     };
 #undef MB_AT

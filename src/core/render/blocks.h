@@ -15,16 +15,18 @@ struct GpuNode {
     glm::vec4 position, numbers, x_axis, y_axis, z_axis;
 };
 struct GpuMaterial {
-    glm::vec4 color, color2, phong;
+    glm::vec4 color, color2, phong, extra;
 };
 struct GpuLight {
-    glm::vec4 position, color;
+    glm::vec4 position, color, extra;
 };
 struct GpuFrame {
     glm::vec4 right, up, forward, picture, reach, background;
     glm::ivec4 limits;
     glm::vec4 grid_corner, box_lo, box_hi;
     glm::ivec4 grid_size, pass;
+    glm::vec4 world_extra, render_extra;
+    glm::ivec4 counted;
 };
 
 /// Everything the shader reads of a scene, but the frame: packed anew for each frame, relative to an origin.
@@ -36,8 +38,8 @@ struct Packed {
 };
 Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin);
 
-/// The camera's basis and the knobs, for a picture of width by height pixels.
-GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size);
+/// The camera's basis and the knobs, for a picture of width by height pixels whose rays are reflected at most `bounces` times.
+GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size, int bounces);
 
 /// A member of a block for the test that compares offsets: its name in GLSL and where C++ has it.
 struct BlockMember {

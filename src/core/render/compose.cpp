@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <regex>
 #include <set>
 
 namespace mb {
 namespace {
+
+constexpr std::string_view kEffectsAt = "#effects ";
 
 struct Resolver {
     const Texts& texts;
@@ -39,6 +42,10 @@ struct Resolver {
                 out.text += directive(line + 1);
                 continue;
             }
+            if (text.starts_with(kEffectsAt)) {
+                if (const std::string place(text.substr(0, text.find('\n'))); texts.contains(place)) add(place, {}), out.text += directive(line + 1);
+                continue;
+            }
             out.text += text;
             if (text.starts_with("#version")) out.text += std::string(head) + directive(line + 1);
         }
@@ -52,6 +59,23 @@ struct Resolver {
         return line.substr(0, line.find('"'));
     }
 };
+
+/// The function through which the shader reads a key that an effect brings.
+std::string accessor(const EffectKey& key) {
+    const char number = "xyzw"[slotOf(key)];
+    const std::string_view type = key.whole ? "int" : "float";
+    const auto body = [&](std::string_view parameter, std::string_view from) {
+        const std::string value = fmt::format("{}.{}", from, number);
+        return fmt::format("{} {}({}) {{ return {}; }}\n", type, key.glsl, parameter, key.whole ? "int(" + value + ")" : value);
+    };
+    switch (key.carrier) {
+    case Carrier::world: return body("", "frame.world_extra");
+    case Carrier::render: return body("", "frame.render_extra");
+    case Carrier::light: return body("int light", "lights[light].extra");
+    case Carrier::material: break;
+    }
+    return body("Look look", "look.extra");
+}
 
 }  // namespace
 
@@ -93,13 +117,35 @@ std::string readableLog(const Composed& composed, std::string_view log) {
     return readable;
 }
 
+void putEffects(Texts& io_texts, const Plan& plan) {
+    std::string keys, files;
+    for (const Plan::Called& c : plan.called) {
+        const Effect& effect = *c.effect;
+        for (const EffectKey& key : effect.keys) keys += accessor(key);
+        if (const std::string file = fmt::format("lib/effects/{}.glsl", fileNameOf(effect)); io_texts.contains(file))
+            files += fmt::format("#include \"{}\"\n", file);
+        if (effect.at.empty()) continue;
+        std::string& text = io_texts[fmt::format("{}{}", kEffectsAt, effect.at)];
+        if (!effect.counts.empty()) text += fmt::format("uses({}, 1);\n", numberOf(effect));
+        text += fmt::format("{}\n", effect.statement);
+    }
+    io_texts[fmt::format("{}files", kEffectsAt)] = keys + files;
+}
+
 std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) {
     const auto define = [](std::string_view name, std::size_t size) { return fmt::format("#define {} {}\n", name, std::max<std::size_t>(size, 1)); };
     std::string text = define("LIGHTS", sizes.lights);
     if (grid) text += "#define GRID\n";
     else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
-    for (const Plan::Called& c : plan.called)
-        if (!c.effect->define.empty()) text += fmt::format("#define {}\n", c.effect->define);
+    bool materials = false;
+    for (const Plan::Called& c : plan.called) {
+        if (!c.effect->ofPicture()) continue;
+        std::string name = fileNameOf(*c.effect);
+        std::ranges::transform(name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+        text += fmt::format("#define EFFECT_{} {}\n", name, numberOf(*c.effect));
+        materials |= std::ranges::any_of(c.effect->keys, [](const EffectKey& key) { return key.carrier == Carrier::material; });
+    }
+    if (materials) text += "#define MATERIAL_EXTRA\n";
     if (sizes.turned) text += "#define TURNED\n";
     if (sizes.carved) text += "#define CARVED\n";
     if (counted) text += "#define COUNTED\n";

@@ -1,6 +1,6 @@
 #pragma once
-// Makes a shader's text: the library with its includes resolved, the scene's own map() and nearest() in their place, and
-// above it what the scene calls for.
+// Makes a shader's text: the library with its includes resolved, the scene's own map() and nearest() in their place, what the
+// effects called for do at their places in the story, and above it their switches.
 #include "core/effects/plan.h"
 
 #include <map>
@@ -27,7 +27,8 @@ using Texts = std::map<std::string, std::string, std::less<>>;
 const Texts& shaderLibrary();
 
 /// The file `path` of `texts` with every `#include "FILE"` line replaced by that file (once: a second include of the same
-/// file is dropped) and `head` put behind its #version line. A missing file leaves an #error in its place.
+/// file is dropped) and `head` put behind its #version line. A missing file leaves an #error in its place. A line
+/// `#effects PLACE` is replaced by the text of that name, which putEffects() makes, or by nothing.
 Composed resolve(const Texts& texts, std::string_view path, std::string_view head = {});
 
 /// A compiler's log with the places in `composed` replaced by names: "lib/march.glsl:12: …".
@@ -38,10 +39,14 @@ std::string readableLog(const Composed& composed, std::string_view log);
 std::string sceneGlsl(const Tree& tree);
 
 /// The same as a loop over the items of the point's cell (core/sdf/grid.h), for the types of primitives and operators that
-/// the tree holds: two trees of the same types give the same text.
-std::string gridGlsl(const Tree& tree);
+/// the tree holds, and for the operators chosen beside: two trees of the same types give the same text.
+std::string gridGlsl(const Tree& tree, const EffectSet& chosen = {});
 
-/// The definitions above a shader: array sizes, and the switches of the effects called for.
+/// Adds the texts that stand for `#effects PLACE`: behind "files" the effects' files and the functions that read their keys, at
+/// every other place the statements of the effects in the plan, in the order of the table.
+void putEffects(Texts& io_texts, const Plan& plan);
+
+/// The definitions above a shader: array sizes, and the switches of the effects in the plan, each the number of its row.
 struct Sizes {
     std::size_t leaves, branches, materials, lights;
     bool turned = true;  // some leaf or operator has other axes than its space

@@ -9,14 +9,24 @@
 namespace mb {
 namespace {
 
+std::size_t firstOperatorRow() { return numberOf(effectNamed(operators().front().name)); }
+
 /// The rows of both tables that a tree uses, by number.
 struct Used {
     std::set<std::size_t> leaves, folds, wraps, warps;
     bool blends = false;  // some fold has a number that is not 0
     bool plain() const { return folds.empty() && wraps.empty(); }
 };
-Used usedBy(const Tree& tree) {
+/// Those a tree uses, and all operators that are chosen beside.
+Used usedBy(const Tree& tree, const EffectSet& chosen) {
     Used used;
+    for (std::size_t row = 0; row < operators().size(); ++row) {
+        const Operator& op = operators()[row];
+        if (!chosen[firstOperatorRow() + row] || op.kind == Operator::Kind::copies) continue;
+        (op.kind == Operator::Kind::fold ? used.folds : used.wraps).insert(row);
+        if (op.warp_by) used.warps.insert(row);
+        used.blends = used.blends || op.blends;
+    }
     for (const Instruction& step : tree.program) {
         if (step.kind == Instruction::Kind::leaf) {
             used.leaves.insert(static_cast<std::size_t>(tree.leaves[step.index].primitive - primitives().data()));
@@ -115,7 +125,7 @@ std::string registers(std::string_view type, std::string_view name, int depth) {
 
 /// What an item does to the values: a leaf makes one, which is joined with those so far.
 std::string plainStep(const Flavour& f) {
-    std::string text = fmt::format("        {} value = {};\n        top = {};\n        touches += 1;\n", f.type, f.leaf, f.join);
+    std::string text = fmt::format("        {} value = {};\n        top = {};\n        touch(1);\n", f.type, f.leaf, f.join);
     if (f.looks_ahead) text += "        ahead = anyAhead(ahead, leafAhead(item.code, at, turnedTo(d, node), node));\n";
     return text;
 }
@@ -123,7 +133,7 @@ std::string plainStep(const Flavour& f) {
 std::string foldStep(const Flavour& f, const Used& used, int stack) {
     const auto shift = [&](bool up) { return shifted("top", stack, up) + (f.looks_ahead ? shifted("ahead", stack, up) : ""); };
     const auto seen = [&f](std::string_view text) { return f.looks_ahead ? text : std::string_view(); };
-    std::string text = fmt::format("        {} value = top;\n{}        bool is_leaf = item.code < {};\n        if (is_leaf) {{ value = {};{} touches += 1; }}\n", f.type,
+    std::string text = fmt::format("        {} value = top;\n{}        bool is_leaf = item.code < {};\n        if (is_leaf) {{ value = {};{} touch(1); }}\n", f.type,
                                    seen("        Ahead seen = ahead;\n"), kItemEnter, f.leaf, seen(" seen = leafAhead(item.code, at, turnedTo(d, node), node);"));
     if (stack > 1) text += fmt::format("        if (item.code == {}) {{{} }}\n", kItemPop, shift(false));
     if (!used.wraps.empty()) {
@@ -135,13 +145,15 @@ std::string foldStep(const Flavour& f, const Used& used, int stack) {
             text += fmt::format("        if ({}) {{{} q = warpPoint(item.code, at, node); }}\n", opens, shifted("q", f.spaces, true));
         }
         // What is warped, or swells, is not where its leaves are.
-        text += fmt::format("        if (item.code >= {} && item.code < {}) {{ {};{} }}\n", kItemWrap, kItemPop, f.wrap, seen(" ahead = UNKNOWN_AHEAD;"));
+        text += fmt::format("        if (item.code >= {} && item.code < {}) {{ {};{} uses({} + item.code, 1); }}\n", kItemWrap, kItemPop, f.wrap,
+                            seen(" ahead = UNKNOWN_AHEAD;"), static_cast<int>(firstOperatorRow()) - static_cast<int>(kItemWrap));
     }
     text += fmt::format("        if (item.how == {}) {{ if (is_leaf) {{{} top = value;{} }} }}\n        else if (item.how == {}) {{ top = {};{} }}\n", kItemPush, shift(true),
                         seen(" ahead = seen;"), kItemJoin, f.join, seen(" ahead = anyAhead(ahead, seen);"));
     if (!used.folds.empty())
-        text += fmt::format("        else {{ float k = {}; top = {};{} }}\n", used.blends ? "recordTexel(item.joined * NODE_TEXELS).w" : "0.0", f.fold,
-                            seen(" ahead = foldAhead(item.how, ahead, seen); if (k > 0.0) ahead = UNKNOWN_AHEAD;"));
+        text += fmt::format("        else {{ float k = {}; top = {};{} uses({} + item.how, 1); }}\n", used.blends ? "recordTexel(item.joined * NODE_TEXELS).w" : "0.0", f.fold,
+                            seen(" ahead = foldAhead(item.how, ahead, seen); if (k > 0.0) ahead = UNKNOWN_AHEAD;"),
+                            static_cast<int>(firstOperatorRow()) - static_cast<int>(kItemFolds));
     return text;
 }
 
@@ -159,8 +171,8 @@ std::string runner(const Flavour& f, const Used& used, int stack) {
 
 }  // namespace
 
-std::string gridGlsl(const Tree& tree) {
-    const Used used = usedBy(tree);
+std::string gridGlsl(const Tree& tree, const EffectSet& chosen) {
+    const Used used = usedBy(tree, chosen);
     const int stack = itemStack(tree, tree.program);
     const bool own = staysWithinLeaves(tree) && std::ranges::all_of(tree.branches, [](const Branch& b) { return b.op->blends; });
     std::string text = fmt::format("#define {}\n#include \"lib/grid.glsl\"\nvoid readScene() {{}}\n", own ? "LEAF_SURFACE" : "RELAXED") + choosers(used);

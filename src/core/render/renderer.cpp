@@ -1,5 +1,7 @@
 #include "core/render/renderer.h"
 
+#include "core/render/strip.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace mb {
 namespace {
 
 constexpr std::size_t kProgramsKept = 32;
-constexpr int kChannelAttachments = 6;
+constexpr int kChannelAttachments = 8;
 
 bool isTurned(const Tree& tree) {
     const auto turned = [](const auto& x) { return x.rotation != glm::dmat3(1); };
@@ -53,16 +55,39 @@ std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 
     eachPass(scene, ready.frame, [&] { quad_.draw(); });
     gl.Disable(GL_BLEND);
     gl.Disable(GL_DEPTH_TEST);
+    return develop(ready);
+}
+
+/// Where the scene has a film, the picture is drawn once more through it; else there is nothing to do.
+std::string Renderer::develop(const Ready& ready) {
+    if (!plan_.has("tone mapping")) {
+        if (developed_.size().x > 0) developed_ = {};
+        return {};
+    }
+    std::string why;
+    const Program* film = program(compose(Variant::develop, {}, plan_, ready.packed, ready.grid), why);
+    if (!why.empty()) return why;
+    if (developed_.size() != picture_.size()) developed_ = Targets(picture_.size(), 1);
+    developed_.bind();
+    glUseProgram(film->name);
+    glActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, picture_.texture(0));
+    glUniform1i(film->uniform("picture"), 0);
+    quad_.draw();
     return {};
 }
 
-std::vector<glm::vec3> Renderer::readPicture() const {
-    const std::vector<float> pixels = picture_.read(0);
+namespace {
+std::vector<glm::vec3> dividedByWeight(const std::vector<float>& pixels) {
     std::vector<glm::vec3> picture(pixels.size() / 4);
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture[i] = glm::vec3{pixels[4 * i], pixels[4 * i + 1], pixels[4 * i + 2]} / pixels[4 * i + 3];
     return picture;
 }
+}  // namespace
+
+std::vector<glm::vec3> Renderer::readPicture() const { return dividedByWeight(picture_.read(0)); }
+std::vector<glm::vec3> Renderer::readShown() const { return dividedByWeight(shown().read(0)); }
 
 std::size_t Renderer::countUndecided() const {
     const std::vector<float> pixels = picture_.read(1);
@@ -71,9 +96,36 @@ std::size_t Renderer::countUndecided() const {
     return count;
 }
 
-std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out) {
+namespace {
+
+/// Adds what the counters of one pass say (shaders/fragment.glsl).
+void addCounts(const Targets& channels, Counts& c) {
+    const auto sums = [&](int attachment) {
+        std::array<std::uint64_t, 4> sum{};
+        const std::vector<float> texels = channels.read(attachment);
+        for (std::size_t i = 0; i < texels.size(); ++i) sum[i % 4] += static_cast<std::uint64_t>(texels[i]);
+        return sum;
+    };
+    const auto primary = sums(3);
+    c.evaluations.primary += primary[0], c.touched.primary += primary[1], c.evaluations.normal += primary[2], c.touched.normal += primary[3];
+    constexpr std::pair<int, std::uint64_t Counts::ByKind::*> kRays[] = {{4, &Counts::ByKind::shadow}, {5, &Counts::ByKind::reflection},
+                                                                        {6, &Counts::ByKind::soft}, {7, &Counts::ByKind::occlusion}};
+    for (const auto& [attachment, kind] : kRays) {
+        const auto ray = sums(attachment);
+        c.evaluations.*kind += ray[0], c.touched.*kind += ray[1], c.rays.*kind += ray[2], c.undecided_rays.*kind += ray[3];
+    }
+    const glm::ivec2 size = channels.size();
+    c.rays.primary += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    const std::vector<float> ray = channels.read(2);
+    for (std::size_t i = 3; i < ray.size(); i += 4) c.uses += static_cast<std::uint64_t>(ray[i]);
+}
+
+}  // namespace
+
+std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted) {
     Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
     if (!ready.why.empty()) return ready.why;
+    if (counted) ready.frame.counted.x = static_cast<int>(numberOf(*counted));
     channels_ = Targets(size, kChannelAttachments);
     out = {};
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
@@ -82,18 +134,7 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
     eachPass(scene, ready.frame, [&] {
         channels_.clear();
         quad_.draw();
-        const std::vector<float> evaluations = channels_.read(3), rays = channels_.read(4), touched = channels_.read(5);
-        Counts& c = out.counts;
-        c.rays.primary += pixels;
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const auto count = [&](const std::vector<float>& v, std::size_t k) { return static_cast<std::uint64_t>(v[4 * i + k]); };
-            const auto byKind = [&](const std::vector<float>& v, Counts::ByKind& sums) {
-                sums.primary += count(v, 0), sums.normal += count(v, 1), sums.shadow += count(v, 2), sums.reflection += count(v, 3);
-            };
-            byKind(evaluations, c.evaluations), byKind(touched, c.touched);
-            c.rays.shadow += count(rays, 0), c.rays.reflection += count(rays, 1);
-            c.undecided_rays.shadow += count(rays, 2), c.undecided_rays.reflection += count(rays, 3);
-        }
+        addCounts(channels_, out.counts);
     });
 
     // The channels of the pixels' centres.
@@ -149,7 +190,7 @@ void Renderer::present(glm::ivec2 corner, glm::ivec2 size) {
     gl.Viewport(corner.x, corner.y, size.x, size.y);
     glUseProgram(present_.name);
     glActiveTexture(GL_TEXTURE0);
-    gl.BindTexture(GL_TEXTURE_2D, picture_.texture(0));
+    gl.BindTexture(GL_TEXTURE_2D, shown().texture(0));
     glUniform1i(present_.uniform("picture"), 0);
     glUniform2f(present_.uniform("corner"), static_cast<float>(corner.x), static_cast<float>(corner.y));
     glUniform2f(present_.uniform("size"), static_cast<float>(size.x), static_cast<float>(size.y));
@@ -165,14 +206,13 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     }
     const Tree tree = makeTree(scene);
     if (ready.why = tree.fault; !ready.why.empty()) return ready;
-    plan_ = makePlan(scene, tree);
+    plan_ = makePlan(scene, tree, choice_);
     if (ready.why = plan_.refused; !ready.why.empty()) return ready;
     ready.packed = pack(scene, tree, origin);
-    ready.frame = packFrame(scene, camera, size);
+    ready.frame = packFrame(scene, camera, size, plan_.bounces);
     ready.frame.reach.w = ready.packed.reach;
     ready.frame.pass.w = static_cast<int>(tree.leaves.size() + tree.branches.size());
-    const std::size_t straight = evaluation_ == Evaluation::grid ? 0 : evaluation_ == Evaluation::straight ? tree.leaves.size() : kStraightLeaves;
-    ready.grid = tree.leaves.size() > straight;
+    ready.grid = usesGrid(tree);
     GridOnGpu& grid = variant == Variant::evaluate ? exact_ : marched_;
     grid_work_ = {};
     if (variant != Variant::evaluate) through_grid_ = ready.grid;
@@ -182,21 +222,43 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
-    ready.program = program(variant, tree, ready, ready.why);
+    ready.program = program(compose(variant, tree, plan_, ready.packed, ready.grid), ready.why);
     if (!ready.why.empty()) return ready;
     glUseProgram(ready.program->name);
     if (ready.grid) grid.buffers.bind(*ready.program);
     return ready;
 }
 
-const Program* Renderer::program(Variant variant, const Tree& tree, const Ready& ready, std::string& why) {
-    const Packed& packed = ready.packed;
-    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !ready.grid || isTurned(tree),
+bool Renderer::usesGrid(const Tree& tree) const {
+    const auto grid = numberOf(effectNamed("grid"));
+    if (evaluation_ == Evaluation::straight || choice_.off[grid]) return false;
+    return evaluation_ == Evaluation::grid || tree.leaves.size() > kStraightLeaves;
+}
+
+Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const {
+    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !grid || isTurned(tree),
                       isCarved(tree)};
-    Texts texts = shaderLibrary();
-    texts["scene.glsl"] = ready.grid ? gridGlsl(tree) : sceneGlsl(tree);
-    const Composed composed = resolve(texts, variant == Variant::evaluate ? "evaluate.glsl" : "fragment.glsl",
-                                      head(plan_, sizes, variant == Variant::counted, ready.grid));
+    Texts texts = library_;
+    if (variant != Variant::develop) texts["scene.glsl"] = grid ? gridGlsl(tree, choice_.on) : sceneGlsl(tree);
+    putEffects(texts, plan);
+    const std::string_view story = variant == Variant::evaluate ? "evaluate.glsl" : variant == Variant::develop ? "develop.glsl" : "fragment.glsl";
+    Composed whole = resolve(texts, story, head(plan, sizes, variant == Variant::counted, grid));
+    if (const auto known = std::ranges::find(stripped_, whole.text, &Stripped::from); known != stripped_.end()) {
+        stripped_.splice(stripped_.begin(), stripped_, known);
+    } else {
+        Composed to = stripped(whole);
+        stripped_.push_front({std::move(whole.text), std::move(to)});
+        if (stripped_.size() > kProgramsKept) stripped_.pop_back();
+    }
+    return stripped_.front().to;
+}
+
+std::string Renderer::textOf(const Scene& scene) const {
+    const Tree tree = makeTree(scene);
+    return compose(Variant::plain, tree, makePlan(scene, tree, choice_), pack(scene, tree, {}), usesGrid(tree)).text;
+}
+
+const Program* Renderer::program(const Composed& composed, std::string& why) {
     const auto known = std::ranges::find(programs_, composed.text, &Cached::text);
     if (known != programs_.end()) {
         programs_.splice(programs_.begin(), programs_, known);

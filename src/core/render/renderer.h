@@ -26,14 +26,17 @@ struct Channels {
 
 /// What a frame took, exact and the same on every run.
 struct Counts {
+    /// By what asks: shadow is of lights that are points, soft of those that have a size.
     struct ByKind {
-        std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0;
+        std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0, soft = 0, occlusion = 0;
+        std::uint64_t total() const { return primary + normal + shadow + reflection + soft + occlusion; }
     };
-    ByKind evaluations;  // of the scene's distance; normal: with the look-up of the surface's object
-    ByKind touched;      // primitives' distances evaluated in them
-    struct { std::uint64_t primary = 0, shadow = 0, reflection = 0; } rays;
-    struct { std::uint64_t shadow = 0, reflection = 0; } undecided_rays;
+    ByKind evaluations;     // of the scene's distance; normal: with the look-up of the surface's object
+    ByKind touched;         // primitives' distances evaluated in them
+    ByKind rays;            // no normal
+    ByKind undecided_rays;  // no primary: those are pixels.undecided
     struct { std::uint64_t hit = 0, miss = 0, undecided = 0; } pixels;
+    std::uint64_t uses = 0; // of the row of the table of effects that was counted
 };
 
 struct Measured {
@@ -51,22 +54,28 @@ struct GpuSample {
 /// How a scene's distance is evaluated: few primitives as straight-line code, many through a grid of pruned lists. Both give
 /// the same values; `automatic` takes what is faster.
 enum class Evaluation { automatic, straight, grid };
-inline constexpr std::size_t kStraightLeaves = 12;
 
 class Renderer {
 public:
     Renderer();
     void setEvaluation(Evaluation evaluation) { evaluation_ = evaluation; }
+    /// What the programs hold against the scenes' own word, from now on.
+    void choose(const Choice& choice) { choice_ = choice; }
+    /// Another shader library than the program's own: a test's.
+    void setLibrary(Texts texts) { library_ = std::move(texts); }
 
     /// Draws the scene into picture(). Returns why it could not, or nothing; then the last picture stays.
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     /// The picture last drawn: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
+    /// The same as it is shown: what the scene's film makes of it, if it has one.
+    std::vector<glm::vec3> readShown() const;
+    const Targets& shown() const { return developed_.size() == picture_.size() ? developed_ : picture_; }
     /// How many of its pixels are undecided: their own ray ran out of steps, or all but touched something.
     std::size_t countUndecided() const;
     const Targets& picture() const { return picture_; }
-    /// Draws once more with counters: the other channels, and what draw() takes.
-    std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out);
+    /// Draws once more with counters: the other channels, and what draw() takes; and how often the effect was used, if one is named.
+    std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted = nullptr);
     /// The scene's own functions at points, in the world's coordinates.
     std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
     /// Puts the picture on the framebuffer now bound to 0, into the rectangle of that corner and size, as sRGB.
@@ -77,6 +86,8 @@ public:
     const GridWork& gridWork() const { return grid_work_; }  // of the last scene drawn; nothing where it has no grid
     const Grid* grid() const { return through_grid_ ? &marched_.grid : nullptr; }  // that the last picture was drawn through; null: none
     int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
+    /// The text of the program that draw() would use.
+    std::string textOf(const Scene& scene) const;
 
 private:
     struct Ready {
@@ -86,10 +97,13 @@ private:
         GpuFrame frame{};
         bool grid = false;
     };
-    enum class Variant { plain, counted, evaluate };
+    enum class Variant { plain, counted, evaluate, develop };
 
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
-    const Program* program(Variant variant, const Tree& tree, const Ready& ready, std::string& why);
+    Composed compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const;
+    bool usesGrid(const Tree& tree) const;
+    const Program* program(const Composed& composed, std::string& why);
+    std::string develop(const Ready& ready);
     std::string upload(const Ready& ready);
     template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
     void bindFrame(const GpuFrame& frame);
@@ -98,12 +112,20 @@ private:
         std::string text;
         Program program;
     };
+    /// What was stripped, so that a frame like the last does not do it again.
+    struct Stripped {
+        std::string from;
+        Composed to;
+    };
+    mutable std::list<Stripped> stripped_;  // the last used first
     std::list<Cached> programs_;      // the last used first
     int compiled_ = 0;
     Plan plan_;
     std::string name_;
     GLint block_bytes_ = 0;
     Evaluation evaluation_ = Evaluation::automatic;
+    Choice choice_;
+    Texts library_ = shaderLibrary();
     struct GridOnGpu {
         Grid grid;
         GridBuffers buffers;
@@ -113,7 +135,7 @@ private:
     bool through_grid_ = false;
     Quad quad_;
     std::vector<OwnedBuffer> blocks_;
-    Targets picture_, channels_;
+    Targets picture_, developed_, channels_;
     Program present_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace mb {
 namespace {
 
@@ -81,6 +83,15 @@ private:
     }
 };
 
+/// How often the tree evaluates each operator, by its row in the table of effects.
+std::map<std::size_t, int> operatorsOf(const Tree& tree) {
+    std::map<std::size_t, int> times;
+    for (const Instruction& step : tree.program)
+        if (step.kind == Instruction::Kind::fold || step.kind == Instruction::Kind::wrap)
+            ++times[numberOf(effectNamed(tree.branches[step.index].op->name))];
+    return times;
+}
+
 bool readsRecord(const Branch& b) { return b.op->kind == Operator::Kind::wrap || b.blend > 0; }
 
 }  // namespace
@@ -109,7 +120,8 @@ std::string sceneGlsl(const Tree& tree) {
     }
     const bool empty = w.stack.empty();
     const std::string value = empty ? fmt::format("{:.1f}", kEmptyDistance) : "d" + w.stack.back();
-    const std::string count = fmt::format("    touches += {};\n", tree.leaves.size());
+    std::string count = fmt::format("    touch({});\n", tree.leaves.size());
+    for (const auto& [row, times] : operatorsOf(tree)) count += fmt::format("    uses({}, {});\n", row, times);
     // What lies where its primitives do can be looked ahead for; what swells or warps them cannot.
     const std::string ahead = staysWithinLeaves(tree)
                                   ? fmt::format("vec3 mapAhead(vec3 p, vec3 d, out int leaf) {{\n    leaf = -1;\n{}{}    return vec3({}, {}, 1.0);\n}}\n",

@@ -1,5 +1,9 @@
 #include "core/scene/keys.h"
 
+#include "core/effects/effect.h"
+
+#include <vector>
+
 namespace mb {
 namespace {
 
@@ -70,13 +74,35 @@ const Key<Object> kObject[] = {
     {"friction", &Object::friction, "", "none: the world's", 0, 1e3, 0, 2, false, false, true},
 };
 
+/// A record's own rows, and behind them those that effects bring to it.
+template <class Record, std::size_t N> std::vector<Key<Record>> withEffects(const Key<Record> (&own)[N], Carrier carrier) {
+    std::vector<Key<Record>> all(own, own + N);
+    for (const Effect& effect : effects())
+        for (const EffectKey& k : effect.keys)
+            if (k.carrier == carrier)
+                all.push_back({k.name, Slot{slotOf(k), k.whole}, k.unit, k.tip, k.lo, k.hi, k.slider_lo, k.slider_hi, false, k.logarithmic});
+    return all;
+}
+
 }  // namespace
 
-template <> std::span<const Key<World>> keys() { return kWorld; }
+template <> std::span<const Key<World>> keys() {
+    static const std::vector<Key<World>> all = withEffects(kWorld, Carrier::world);
+    return all;
+}
 template <> std::span<const Key<Camera>> keys() { return kCamera; }
-template <> std::span<const Key<Light>> keys() { return kLight; }
-template <> std::span<const Key<Material>> keys() { return kMaterial; }
-template <> std::span<const Key<RenderKnobs>> keys() { return kRender; }
+template <> std::span<const Key<Light>> keys() {
+    static const std::vector<Key<Light>> all = withEffects(kLight, Carrier::light);
+    return all;
+}
+template <> std::span<const Key<Material>> keys() {
+    static const std::vector<Key<Material>> all = withEffects(kMaterial, Carrier::material);
+    return all;
+}
+template <> std::span<const Key<RenderKnobs>> keys() {
+    static const std::vector<Key<RenderKnobs>> all = withEffects(kRender, Carrier::render);
+    return all;
+}
 template <> std::span<const Key<PhysicsKnobs>> keys() { return kPhysics; }
 template <> std::span<const Key<Object>> keys() { return kObject; }
 

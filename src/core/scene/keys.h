@@ -9,9 +9,15 @@
 
 namespace mb {
 
+/// The number of that place in a record's `extra`.
+struct Slot {
+    std::size_t at = 0;
+    bool whole = false;
+};
+
 template <class Record> struct Key {
     using Member = std::variant<double Record::*, int Record::*, bool Record::*, glm::dvec3 Record::*, std::string Record::*,
-                                std::optional<double> Record::*, Pattern Record::*>;
+                                std::optional<double> Record::*, Pattern Record::*, Slot>;
     std::string_view name;
     Member member;
     std::string_view unit = {}, tip = {};
@@ -22,8 +28,19 @@ template <class Record> struct Key {
     bool body = false;                   // of a body: only an object at the top level takes it
 };
 
+/// The value a row's member stands for.
+template <class Record, class Member> auto& valueAt(Record& record, Member member) {
+    if constexpr (!std::is_same_v<Member, Slot>) return record.*member;
+    else if constexpr (requires { record.extra; }) return record.extra[member.at];
+    else {
+        static std::conditional_t<std::is_const_v<Record>, const double, double> none{};  // no row of such a record has a slot
+        return none;
+    }
+}
+
 /// The rows of a record: World, Camera, Light, Material, RenderKnobs, PhysicsKnobs or Object. `type`, `material` and an
-/// object's own keys are not among Object's: the reader and the panels know them.
+/// object's own keys are not among Object's: the reader and the panels know them. Those that the table of effects brings
+/// stand behind the others.
 template <class Record> std::span<const Key<Record>> keys();
 template <> std::span<const Key<World>> keys();
 template <> std::span<const Key<Camera>> keys();

@@ -20,7 +20,7 @@ template <class T> bool same(const T& a, const T& b) { return a == b; }
 
 template <class Record> bool sameRecord(const Record& a, const Record& b) {
     for (const Key<Record>& key : keys<Record>())
-        if (!std::visit([&](auto member) { return same(a.*member, b.*member); }, key.member)) return false;
+        if (!std::visit([&](auto member) { return same(valueAt(a, member), valueAt(b, member)); }, key.member)) return false;
     return true;
 }
 bool sameRecord(const Object& a, const Object& b) {

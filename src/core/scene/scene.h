@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,12 +22,19 @@ struct ObjectId {
     friend bool operator==(ObjectId, ObjectId) = default;
 };
 
+/// The numbers of the keys that rows of the table of effects bring to a record (core/effects/effect.h), in the table's order.
+using Extra = std::array<double, 4>;
+enum class Carrier { world, render, light, material };
+/// Those numbers where a file says nothing.
+Extra initialExtra(Carrier carrier);
+
 struct World {
     double gravity = 9.81;       // m/s², along −y
     double restitution = 0.6;    // of bodies that state none of their own
     double friction = 0.4;
     glm::dvec3 background{0};
     double bounds = 50;          // m: a body further than this from the origin is removed
+    Extra extra = initialExtra(Carrier::world);
 };
 
 struct Camera {
@@ -40,6 +48,7 @@ struct Light {
     std::string name;
     glm::dvec3 pos{0}, color{1};
     double intensity = 1;
+    Extra extra = initialExtra(Carrier::light);
 };
 
 enum class Pattern { none, checker };
@@ -49,18 +58,20 @@ struct Material {
     glm::dvec3 color{0.8}, color2{0.2};
     Pattern pattern = Pattern::none;
     double ka = 0.1, kd = 0.7, ks = 0.2, kr = 0, c = 32;
+    Extra extra = initialExtra(Carrier::material);
 };
 
-/// The quality of the picture. Limits that hold between them are render/plan.h's to check.
+/// The quality of the picture. Limits that hold between them are effects/plan.h's to check.
 struct RenderKnobs {
     int march_steps = 512;       // evaluations a primary or reflected ray may make
     double march_epsilon = 1e-4; // of the distance travelled: closer than this a ray looks for a change of sign
     double max_distance = 200;   // m from the eye; nothing further is seen
     double normal_epsilon = 5e-4;  // of the distance travelled: the reach of the normal's differences
     int shadow_steps = 256;      // evaluations a shadow ray may make
-    int reflections = 4;         // bounces
+    int reflections = 4;         // bounces at most
     int samples = 1;             // a pixel
     bool show_undecided = false; // tints the pixels whose rays ran out of steps
+    Extra extra = initialExtra(Carrier::render);
 };
 
 struct PhysicsKnobs {

@@ -31,8 +31,8 @@ std::string nameText(std::string_view text);
 
 template <class Record> ValueFault assign(Record& record, const Key<Record>& key, const Value& value) {
     return std::visit([&](auto member) -> ValueFault {
-        using T = std::remove_cvref_t<decltype(record.*member)>;
-        T& field = record.*member;
+        auto& field = valueAt(record, member);
+        using T = std::remove_cvref_t<decltype(field)>;
         if constexpr (std::is_same_v<T, std::string>) return readText(key.name, value, field);
         else if constexpr (std::is_same_v<T, Pattern>) {
             std::size_t index = 0;
@@ -44,7 +44,8 @@ template <class Record> ValueFault assign(Record& record, const Key<Record>& key
         } else {
             constexpr bool truth = std::is_same_v<T, bool>, whole = truth || std::is_same_v<T, int>;
             double x = 0;
-            const Range range = truth ? Range{0, 1, true} : Range{key.lo, key.hi, whole};
+            Range range = truth ? Range{0, 1, true} : Range{key.lo, key.hi, whole};
+            if constexpr (std::is_same_v<decltype(member), Slot>) range.whole = member.whole;
             if (ValueFault f = readNumbers(key.name, value, range, std::span(&x, 1))) return f;
             if constexpr (whole) field = static_cast<T>(x);
             else field = x;

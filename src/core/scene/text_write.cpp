@@ -12,8 +12,9 @@ template <class Record, class Wanted> void appendKeys(std::string& out, const Re
     for (const Key<Record>& key : keys<Record>()) {
         if (!wanted(key)) continue;
         std::visit([&](auto member) {
-            if (!key.required && sameBits(record.*member, initial.*member)) return;
-            out.append(" ").append(key.name).append(":").append(valueText(record.*member));
+            const auto& value = valueAt(record, member);
+            if (!key.required && sameBits(value, valueAt(initial, member))) return;
+            out.append(" ").append(key.name).append(":").append(valueText(value));
         }, key.member);
     }
 }

@@ -1,0 +1,7 @@
+// Air that takes the same share of the light at every metre and glows in the background's color (Beer's law).
+
+void throughFog(float metres, inout vec3 color, inout float weight) {
+    float clear = exp(-worldFog() * metres);
+    color += weight * (1.0 - clear) * background();
+    weight *= clear;
+}

@@ -1,0 +1,4 @@
+#include "core/effects/effect.h"
+namespace mb {
+std::span<const Effect> motionEffects() { return {}; }
+}  // namespace mb
