@@ -91,11 +91,11 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
     before_ += field_.evaluations();
     std::vector<std::string> notes;
     const StaticField field_before = std::exchange(field_, {});
-    field_ = StaticField(scene, [&](std::size_t i) {
+    const auto is_solid = [&](std::size_t i) {
         const ObjectId id = scene.objects[i].id;
-        return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == id; }) &&
-               std::find(gone_.begin(), gone_.end(), id) == gone_.end();
-    }, notes, &field_before);
+        return std::ranges::none_of(bodies_, [&](const Body& b) { return b.object == id; }) && std::ranges::find(gone_, id) == gone_.end();
+    };
+    if (!bodies_.empty()) field_ = StaticField(scene, is_solid, notes, &field_before);  // else nobody would ask it
     for (std::string& text : notes) note(std::move(text));
     for (NearStatics& near : near_) near = {};
     for (Body& b : bodies_) b.awake = true, b.still = 0;
