@@ -1,6 +1,7 @@
 // marchbox simulate: the physics without drawing.
 #include "cli/cli.h"
 
+#include "core/effects/effect.h"
 #include "physics/world.h"
 
 #include <fmt/format.h>
@@ -74,6 +75,19 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+nlohmann::json namesOf(Stages stages) {
+    nlohmann::json names = nlohmann::json::array();
+    for (const Effect& row : motionEffects())
+        if (stages.has(row.stage)) names.push_back(row.name);
+    return names;
+}
+
+nlohmann::ordered_json asJson(const StepCounts& counts) {
+    nlohmann::ordered_json json;
+    for (const Counter& counter : counters()) json[std::string(counter.name)] = counts.*counter.of;
+    return json;
+}
+
 void run(const Options& options, const Common& common) {
     Scene scene = readSceneFile(options.scene, options.settings, common);
     if (options.dt > 0) scene.physics.dt = options.dt;
@@ -83,6 +97,7 @@ void run(const Options& options, const Common& common) {
     const auto steps = static_cast<std::uint64_t>(wanted);
 
     PhysicsWorld world(scene);
+    const Stages called = world.stages();
     constexpr double kWorthSaying = 1e-3;  // m; less is undone within a few steps
     if (const double depth = world.maxPenetration(); depth > kWorthSaying && !common.quiet)
         fmt::print(stderr, "{}: note: bodies overlap something by up to {:.3g} m at the start\n", options.scene, depth);
@@ -107,7 +122,7 @@ void run(const Options& options, const Common& common) {
         {"seconds", world.time_s()}, {"steps", world.steps()}, {"bodies", world.bodies().size()}, {"awake", world.awake()},
         {"step_ms", median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
         {"momentum", {p.x, p.y, p.z}}, {"max_penetration", world.maxPenetration()}, {"removed", world.removed()},
-        {"state", world.stateText()}};
+        {"stages", namesOf(called)}, {"counts", asJson(world.counts())}, {"state", world.stateText()}};
     writeText("-", json.dump() + '\n');
 }
 

@@ -26,6 +26,23 @@ struct Meeting {
     int samples = 0;
 };
 
+/// Whether firstMeeting is certain to find nothing within `duration`, for a gap that begins with at least `clear` and limits that
+/// hold for all of it: no more is travelled than is clear. Then the gap is positive at every sample, and so is the meeting
+/// point of two tangents, as no rate exceeds the speed v: with rates −r and s at samples t apart and gaps g and g' ≥ g − v·t
+/// they meet at (s·g + r·g' − r·s·t) / (r + s) ≥ g − r·(s + v)·t / (r + s) ≥ g − v·t, as r ≤ v.
+/// (Over thousands of radii the search may run out of samples first, which is an answer of its own.)
+inline bool cannotReach(double clear, double duration, const ApproachLimits& limits, double radius) {
+    const double travel = limits.speed * duration;
+    return travel < clear && travel < 1e3 * radius;
+}
+
+/// The same, for two that rest on one another or are near: nothing approaches faster than `bounce`, and the gap, which errs by
+/// `error`, cannot shrink by more than a quarter of `depth`, where the search lets it shrink by half of it. The meeting point
+/// of two tangents lies no lower, as above.
+inline bool restsThrough(double duration, const ApproachLimits& limits, double error) {
+    return limits.speed * (1 + 1e-12) <= limits.bounce && limits.speed * duration + error <= 0.25 * limits.depth;
+}
+
 /// The first time in [from, to] when they touch: the gap is 0, or it is negative at `from` already and they approach.
 ///
 /// Conservative advancement (Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996) as long as there is

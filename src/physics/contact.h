@@ -4,7 +4,7 @@
 // A ball's normal impulse passes through its centre and turns nothing; the tangential one acts at the lever r and meets
 // the mass 1/(1/m + r²/I), which is 2/7·m for a solid ball.
 #include "physics/body.h"
-#include "physics/statics.h"
+#include "physics/stages.h"
 
 #include <span>
 
@@ -31,12 +31,14 @@ struct Motion {
 /// The unit vector from b's centre to a's. Centres that coincide are parted in a direction that follows from their ids.
 glm::dvec3 directionApart(const Body& a, const Body& b);
 
-/// The velocity of a's surface against b's at the contact.
-glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Motion& a, const Motion* b, const Contact& c);
+/// The velocity of a's surface against b's at the contact, or of the centres, where no surface turns.
+glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Motion& a, const Motion* b, const Contact& c, bool spins);
 
 /// Solves for impulses by turns (sequential impulses; Catto, "Iterative Dynamics with Temporal Coherence", 2005) until
 /// the last round changed no velocity by more than 1e-12 m/s, or `rounds` is reached. `motion` is indexed by the body's
-/// number. Impulses already in the contacts are applied first. Returns the rounds made.
-int solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds);
+/// number. Impulses already in the contacts are applied first. Its rounds are composed of the stages: without friction there
+/// is no tangential part, without spin nothing turns.
+void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, Stages stages,
+           StepCounts& io_counts);
 
 }  // namespace mb

@@ -1,4 +1,5 @@
 // Between a scene and its physics: which objects move, with what mass, and where they came to lie.
+#include "core/effects/effect.h"
 #include "physics/volume.h"
 #include "physics/world.h"
 
@@ -63,7 +64,7 @@ Movable movable(const Scene& scene, std::size_t object) {
 
 }  // namespace
 
-PhysicsWorld::PhysicsWorld(const Scene& scene) : world_(scene.world), knobs_(scene.physics) {
+PhysicsWorld::PhysicsWorld(const Scene& scene, StageChoice choice) : world_(scene.world), knobs_(scene.physics), choice_(choice) {
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) addBody(scene, i);
     changeStatics(scene);
 }
@@ -78,7 +79,7 @@ void PhysicsWorld::addBody(const Scene& scene, std::size_t object) {
     b.orientation = b.placed = glm::normalize(glm::quat_cast(rotationFromDegrees(o.rot)));
     b.offset = m.centre;
     b.position = o.pos + (m.centre == glm::dvec3{0} ? m.centre : rotationFromDegrees(o.rot) * m.centre);
-    b.velocity = o.vel, b.spin = o.spin;
+    b.velocity = o.vel, b.spin = o.spin + glm::dvec3{0};  // −0 becomes 0, as it would where spin is summed
     b.radius = m.radius, b.inverse_mass = 1 / m.mass, b.inverse_inertia = 1 / (0.4 * m.mass * m.radius * m.radius);
     b.restitution = o.restitution, b.friction = o.friction;
     bodies_.push_back(std::move(b));
@@ -90,14 +91,31 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
     before_ += field_.evaluations();
     std::vector<std::string> notes;
     const StaticField field_before = std::exchange(field_, {});
-    field_ = StaticField(scene, [&](std::size_t i) {
+    const auto is_solid = [&](std::size_t i) {
         const ObjectId id = scene.objects[i].id;
-        return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == id; }) &&
-               std::find(gone_.begin(), gone_.end(), id) == gone_.end();
-    }, notes, &field_before);
+        return std::ranges::none_of(bodies_, [&](const Body& b) { return b.object == id; }) && std::ranges::find(gone_, id) == gone_.end();
+    };
+    if (!bodies_.empty()) field_ = StaticField(scene, is_solid, notes, &field_before);  // else nobody would ask it
     for (std::string& text : notes) note(std::move(text));
     for (NearStatics& near : near_) near = {};
     for (Body& b : bodies_) b.awake = true, b.still = 0;
+    compose();
+}
+
+/// Asks the table of effects about the bodies and solids there are, as records of a scene.
+void PhysicsWorld::compose() {
+    Scene scene;
+    scene.world = world_, scene.physics = knobs_;
+    scene.objects.resize(bodies_.size() + (field_.empty() ? 0 : 1));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body& b = bodies_[i];
+        Object& o = scene.objects[i];
+        o.mass = b.mass(), o.spin = b.spin, o.restitution = b.restitution, o.friction = b.friction;
+    }
+    stages_ = choice_.from(calledFor(scene));
+    // What sleeps, or is about to, must be able to wake.
+    const bool still = std::ranges::any_of(bodies_, [](const Body& b) { return !b.awake || b.still > 0; });
+    if (still) stages_ = choice_.from(stages_ | Stages{Stage::sleeping});
 }
 
 void PhysicsWorld::writeTo(Scene& scene) const {

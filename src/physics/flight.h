@@ -7,6 +7,7 @@
 #include "physics/approach.h"
 #include "physics/broadphase.h"
 #include "physics/contact.h"
+#include "physics/near_statics.h"
 
 #include <queue>
 
@@ -15,26 +16,21 @@ namespace mb {
 /// How deep a resting ball may sink before it counts as moving into what it rests on, m.
 inline double restDepth(double radius) { return std::min(1e-4, 1e-3 * radius); }
 
-/// The static points near a ball, remembered for the place they were last asked for.
-struct NearStatics {
-    glm::dvec3 at{NAN};
-    std::vector<Touch> touches;
-    double free = 0;          // StaticField::touches' answer
-
-    void moveTo(const StaticField& field, glm::dvec3 position, double radius);
-};
+inline constexpr int kEventsAPart = 48;  // of one ball; beyond it the ball waits for the next part
 
 struct FlightRules {
     const World& world;
     double duration = 0;      // s, of the part
     double bounce = 0;        // m/s: a slower approach has no restitution
+    Stages stages;            // that the flight is composed of
+    bool proofs = true;       // a search that is proved to find nothing is not made
 };
 
 class Flight {
 public:
     /// `accelerations` (m/s², rad/s²) hold from the start of the part to the ball's first impact.
     Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
-           std::span<const Motion> accelerations);
+           std::span<const Motion> accelerations, StepCounts& io_counts);
     /// Moves every ball to the end of the part.
     void run();
 
@@ -59,16 +55,23 @@ private:
         }
     };
 
+    bool has(Stage s) const { return rules_.stages.has(s); }
+    // Along the paths (flight.cpp).
+    void findNeighbours();
     glm::dvec3 positionAt(std::size_t i, double t) const;
     glm::dvec3 velocityAt(std::size_t i, double t) const;
     void advance(std::size_t i, double t);
     void expectStatic(std::size_t i);
+    bool noStaticAhead(std::size_t i, double duration, const ApproachLimits& limits);
     void expectPair(std::size_t i, std::size_t j);
     void expectAll(std::size_t i);
     void growReach(std::size_t i);
+    // At an impact (impact.cpp).
     void meet(const Event& event);
     std::vector<Contact> contactsOf(int a, int b);
+    void addStaticContacts(int i, std::vector<Contact>& io_contacts);
     bool bounceApart(std::vector<Contact>& contacts, int a, int b);
+    double energyOf(int i) const;
     void support(const std::vector<Contact>& contacts);
     void hold(std::size_t i);
 
@@ -76,6 +79,7 @@ private:
     std::vector<NearStatics>& near_;
     const StaticField& field_;
     FlightRules rules_;
+    StepCounts& counts_;
     std::vector<Path> paths_;
     std::vector<Motion> motion_;                 // scratch of the solver
     std::vector<Reach> reach_;                   // where each may get, from the start of the part

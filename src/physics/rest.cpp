@@ -5,6 +5,7 @@
 // moves the ball along a chord of a curved surface, whose ends both lie on it, and the normal impulse does no work
 // (Hairer, Lubich, Wanner, "Geometric Numerical Integration", 2006, section IV.1). With the normal at the start instead, a
 // ball in a bowl would gain energy at every part.
+#include "core/effects/effect.h"
 #include "physics/world.h"
 
 #include <glm/geometric.hpp>
@@ -31,26 +32,43 @@ double depthOf(std::span<const Body> bodies, const Contact& c) {
 /// Contacts of balls that touch now and do not approach faster than what bounces; the pairs behind the static ones.
 std::vector<Contact> PhysicsWorld::touching() {
     std::vector<Contact> contacts;
-    std::vector<Reach> reach(bodies_.size());
+    if (has(Stage::static_contacts)) touchStatics(contacts);
+    if (has(Stage::broad_phase)) touchBodies(contacts);
+    return contacts;
+}
+
+void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& b = bodies_[i];
-        reach[i] = {b.position, b.radius + restDepth(b.radius)};
-        if (!b.awake) continue;
-        near_[i].moveTo(field_, b.position, b.radius);
-        for (const Touch& touch : near_[i].touches)
-            if (touch.gap <= restDepth(b.radius)) contacts.push_back(staticContact(world_, bodies_, static_cast<int>(i), touch));
+        if (!b.awake || (choice_.proofs && near_[i].roomAt(b.position, b.radius) > restDepth(b.radius))) continue;
+        near_[i].moveTo(field_, b.position, b.radius, counts_);
+        for (const Touch& touch : near_[i].touches()) {
+            if (touch.gap > restDepth(b.radius)) continue;
+            ++counts_.static_contacts;
+            io_contacts.push_back(staticContact(world_, bodies_, static_cast<int>(i), touch));
+        }
     }
-    for (const auto& [i, j] : overlappingPairs(reach)) {
+}
+
+void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts) {
+    std::vector<Reach> reach(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) reach[i] = {bodies_[i].position, bodies_[i].radius + restDepth(bodies_[i].radius)};
+    const std::vector<std::pair<int, int>> pairs = overlappingPairs(reach);
+    ++counts_.broad_phases, counts_.pairs += pairs.size();
+    if (!has(Stage::body_contacts)) return;
+    for (const auto& [i, j] : pairs) {
         const Body &a = bodies_[at(i)], &b = bodies_[at(j)];
         const double gap = glm::length(a.position - b.position) - a.radius - b.radius;
+        ++counts_.body_gaps;
         if (gap > restDepth(std::min(a.radius, b.radius))) continue;
-        contacts.push_back({i, j, directionApart(a, b), gap, pairing(world_, a, b), 0, {}, 0, {}});
+        ++counts_.body_contacts;
+        io_contacts.push_back({i, j, directionApart(a, b), gap, pairing(world_, a, b), 0, {}, 0, {}});
     }
-    return contacts;
 }
 
 /// Balls that touch sleep and wake together: an island sleeps when each of its balls has been still for long enough.
 void PhysicsWorld::wakeAndSleep(std::span<const Contact> contacts) {
+    ++counts_.islands;
     std::vector<int> island(bodies_.size());
     std::iota(island.begin(), island.end(), 0);
     const auto root = [&](int i) {
@@ -104,16 +122,16 @@ void PhysicsWorld::stopSlowApproaches(std::span<Contact> contacts) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) motion[i] = {bodies_[i].velocity, bodies_[i].spin};
     bool any = false;
     for (const Contact& c : contacts) {
-        const glm::dvec3 v = relativeVelocity(bodies_, motion[at(c.a)], c.b == kStatic ? nullptr : &motion[at(c.b)], c);
+        const glm::dvec3 v = relativeVelocity(bodies_, motion[at(c.a)], c.b == kStatic ? nullptr : &motion[at(c.b)], c, has(Stage::spin));
         any = any || glm::dot(v, c.normal) < -1e-12;
     }
     if (!any) return;
-    solve(bodies_, contacts, motion, 4 * knobs_.iterations);
+    solve(bodies_, contacts, motion, 4 * knobs_.iterations, stages_, counts_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = motion[i].velocity, bodies_[i].spin = motion[i].spin;
 }
 
 /// The same contacts with the normals they will have half-way through the part; those that will have parted are left out.
-std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) const {
+std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) {
     std::vector<Contact> midway;
     std::vector<Touch> touches;
     int of = -1;
@@ -128,7 +146,10 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
             midway.push_back(m);
             continue;
         }
-        if (of != c.a) field_.touches(x, a.radius, 0.25 * a.radius, touches), of = c.a;
+        if (of != c.a) {
+            field_.touches(x, a.radius, kNear * a.radius, touches), of = c.a;
+            ++counts_.static_queries;
+        }
         const Touch* best = nullptr;
         for (const Touch& t : touches)
             if (!best || glm::dot(t.normal, c.normal) > glm::dot(best->normal, c.normal)) best = &t;
@@ -147,9 +168,10 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
         const Body& a = bodies_[at(c.a)];
         const Motion before{a.velocity, a.spin};
         const Motion other = c.b == kStatic ? Motion{} : Motion{bodies_[at(c.b)].velocity, bodies_[at(c.b)].spin};
-        const glm::dvec3 v = relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c);
+        const glm::dvec3 v = relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
         c.target = -away;
+        if (!has(Stage::friction)) continue;
         const glm::dvec3 slip = v - away * c.normal;
         const glm::dvec3 pulled = c.b == kStatic ? fall - glm::dot(fall, c.normal) * c.normal : glm::dvec3{0};
         c.slip = glm::dot(slip, slip + pulled) < 0 ? -slip : glm::dvec3{0};
@@ -164,7 +186,7 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
         for (; k != kept_.end() && k->a == a && k->b == b; ++k) {
             if (glm::dot(k->normal, c.normal) < 0.98) continue;
             c.push = k->push;
-            c.drag = k->drag - glm::dot(k->drag, c.normal) * c.normal;
+            if (c.pairing.friction != 0) c.drag = k->drag - glm::dot(k->drag, c.normal) * c.normal;
             break;
         }
     }
@@ -178,12 +200,21 @@ void PhysicsWorld::keep(std::span<const Contact> contacts) {
     std::stable_sort(kept_.begin(), kept_.end(), [](const Kept& x, const Kept& y) { return std::pair{x.a, x.b} < std::pair{y.a, y.b}; });
 }
 
-/// The accelerations of every ball through the part: gravity's, and those of the contacts it rests on.
-std::vector<Motion> PhysicsWorld::carry(std::span<const Contact> contacts, double h) {
+/// Gravity's acceleration of every ball.
+std::vector<Motion> PhysicsWorld::falling() const {
+    std::vector<Motion> accelerations(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (bodies_[i].awake) accelerations[i].velocity = {0, -world_.gravity, 0};
+    return accelerations;
+}
+
+/// Adds what the contacts a ball rests on do to it through the part. Of a ball that nothing carries the acceleration stays
+/// gravity itself: the quotient would round it.
+void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations) {
     std::vector<Contact> midway = atMidway(contacts, h);
     setTargets(midway, h);
     takeKept(midway);
-    std::vector<Motion> after(bodies_.size()), accelerations(bodies_.size());
+    std::vector<Motion> after(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (bodies_[i].awake) after[i] = {bodies_[i].velocity + glm::dvec3{0, -world_.gravity * h, 0}, bodies_[i].spin};
     std::vector<char> carried(bodies_.size(), 0);
@@ -191,17 +222,14 @@ std::vector<Motion> PhysicsWorld::carry(std::span<const Contact> contacts, doubl
         carried[at(c.a)] = 1;
         if (c.b != kStatic) carried[at(c.b)] = 1;
     }
-    solve(bodies_, midway, after, knobs_.iterations);
+    solve(bodies_, midway, after, knobs_.iterations, stages_, counts_);
     keep(midway);
     contacts_ = static_cast<int>(std::count_if(midway.begin(), midway.end(), [](const Contact& c) { return c.push > 0; }));
 
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (!bodies_[i].awake) continue;
-        // Of a ball that nothing carries, gravity itself: the quotient would round it.
-        if (!carried[i]) accelerations[i].velocity = {0, -world_.gravity, 0};
-        else accelerations[i] = {(after[i].velocity - bodies_[i].velocity) / h, (after[i].spin - bodies_[i].spin) / h};
+        if (!bodies_[i].awake || !carried[i]) continue;
+        io_accelerations[i] = {(after[i].velocity - bodies_[i].velocity) / h, (after[i].spin - bodies_[i].spin) / h};
     }
-    return accelerations;
 }
 
 /// Counts for how long each ball that touches something has been still; without gravity only rest itself is.

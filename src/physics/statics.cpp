@@ -215,21 +215,22 @@ struct StaticField::Search {
     }
 };
 
-double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out) const {
+double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out, double* out_room) const {
     out.clear();
     // What the grid does not name has no surface within reach.
-    double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY;
+    double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY, room = free;
     std::vector<Touch> found;
     for (const std::size_t i : solidsNear(centre, radius + margin)) {
         const Solid& solid = solids_[i];
         const double outside = distanceTo(solid.box, centre) - radius;
         if (outside > margin) {
-            free = std::min(free, outside);
+            free = std::min(free, outside), room = std::min(room, outside);
             continue;
         }
         found.clear();
         const Search search{solid, centre, radius, margin, found, evaluations_};
         const double f = search.field(centre);
+        room = std::min(room, f - radius);
         if (f - radius > margin) {
             free = std::min(free, f - radius);
             continue;
@@ -247,6 +248,8 @@ double StaticField::touches(glm::dvec3 centre, double radius, double margin, std
         }
         out.insert(out.end(), found.begin(), found.end());
     }
+
+    if (out_room) *out_room = room;
 
     // Keep what no nearer point's tangent plane hides.
     std::stable_sort(out.begin(), out.end(), [](const Touch& a, const Touch& b) { return a.gap < b.gap; });

@@ -24,8 +24,9 @@ public:
     /// The points that are local minima of the distance to the ball's centre, nearer than `margin` to its surface,
     /// nearest first; one that a nearer point's tangent plane hides is left out, so that a ball rolls over the seam of
     /// two tiles as over one. A ball in a corner gets one for each wall. For a centre inside a solid, the way out.
-    /// Returns a gap that is certain to be free: at most that of the nearest point.
-    double touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out) const;
+    /// Returns a gap that is certain to be free: at most that of the nearest point. `out_room`, if asked for, is what the
+    /// distances alone prove to be free, whatever the search for points found: negative in an overlap.
+    double touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out, double* out_room = nullptr) const;
 
     std::uint64_t evaluations() const { return evaluations_; }
     bool empty() const { return solids_.empty(); }

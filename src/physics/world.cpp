@@ -1,5 +1,6 @@
 #include "physics/world.h"
 
+#include "core/effects/effect.h"
 #include "physics/hash.h"
 #include "physics/random.h"
 
@@ -27,7 +28,9 @@ bool shorten(glm::dvec3& io_v, double most) {
 }  // namespace
 
 void PhysicsWorld::step() {
+    const std::uint64_t before = field_.evaluations();
     for (int i = 0; i < knobs_.substeps; ++i) part(knobs_.dt / knobs_.substeps);
+    counts_.evaluations += field_.evaluations() - before;
     ++steps_;
 }
 
@@ -35,29 +38,54 @@ void PhysicsWorld::step() {
 double PhysicsWorld::bounceSpeed(double h) const { return 2 * std::fabs(world_.gravity) * h; }
 
 void PhysicsWorld::part(double h) {
+    // Sleepers lie still, and only what is awake, or what is done to the world between steps, wakes them.
+    if (choice_.proofs && awake() == 0) {
+        kept_.clear(), contacts_ = 0;
+        return;
+    }
     tame();
     std::vector<Contact> contacts = touching();
-    wakeAndSleep(contacts);
-    pushApart(contacts, h);
+    if (has(Stage::sleeping)) wakeAndSleep(contacts);
+    const std::vector<Motion> accelerations = rest(contacts, h);
+    if (has(Stage::flight)) fly(accelerations, h);
+    if (has(Stage::sleeping)) countStill(contacts, h);
+    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
+}
 
-    // Fast approaches are impacts: the flight's business. Sleepers need nothing.
-    std::erase_if(contacts, [&](const Contact& c) {
+/// What lasts of the contacts keeps the balls up: their accelerations through the part.
+std::vector<Motion> PhysicsWorld::rest(std::vector<Contact>& io_contacts, double h) {
+    std::vector<Motion> accelerations = falling();
+    if (!io_contacts.empty()) {
+        pushApart(io_contacts, h);
+        dropImpacts(io_contacts, h);
+    }
+    if (io_contacts.empty()) {
+        kept_.clear(), contacts_ = 0;
+        return accelerations;
+    }
+    stopSlowApproaches(io_contacts);
+    carry(io_contacts, h, accelerations);
+    return accelerations;
+}
+
+/// Fast approaches are impacts: the flight's business. Sleepers need nothing.
+void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) const {
+    std::erase_if(io_contacts, [&](const Contact& c) {
         const Body& a = bodies_[static_cast<std::size_t>(c.a)];
         const Motion before{a.velocity, a.spin};
         if (!a.awake) return true;
         Motion other;
         if (c.b != kStatic) other = {bodies_[static_cast<std::size_t>(c.b)].velocity, bodies_[static_cast<std::size_t>(c.b)].spin};
-        return glm::dot(relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c), c.normal) < -bounceSpeed(h);
+        const glm::dvec3 v = relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c, has(Stage::spin));
+        return glm::dot(v, c.normal) < -bounceSpeed(h);
     });
-    stopSlowApproaches(contacts);
-    const std::vector<Motion> accelerations = carry(contacts, h);
+}
 
-    Flight flight(bodies_, near_, field_, {world_, h, bounceSpeed(h)}, accelerations);
+void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
+    Flight flight(bodies_, near_, field_, {world_, h, bounceSpeed(h), stages_, choice_.proofs}, accelerations, counts_);
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += static_cast<std::uint64_t>(flight.held);
-    countStill(contacts, h);
-    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
 }
 
 /// Takes out balls whose state is no number and slows down those beyond the top speed, before either meets another.
@@ -71,7 +99,7 @@ void PhysicsWorld::tame() {
             continue;
         }
         if (shorten(b.velocity, kTopSpeed)) note(fmt::format("{}: slowed down to {} m/s", b.name, kTopSpeed));
-        if (shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
+        if (has(Stage::spin) && shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
     }
     removeWhere(broken);
 }
@@ -88,16 +116,23 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
         if (left != i) bodies_[left] = std::move(bodies_[i]), near_[left] = std::move(near_[i]);
         ++left;
     }
+    if (left == bodies_.size()) return;
     bodies_.resize(left), near_.resize(left);
+    compose();
 }
 
 void PhysicsWorld::note(std::string text) {
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
 }
 
+void PhysicsWorld::setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin) {
+    io_body.velocity = velocity, io_body.spin = spin + glm::dvec3{0};
+    io_body.awake = true, io_body.still = 0;
+}
+
 void PhysicsWorld::setMotion(std::size_t body, glm::dvec3 velocity, glm::dvec3 spin) {
-    bodies_[body].velocity = velocity, bodies_[body].spin = spin;
-    bodies_[body].awake = true, bodies_[body].still = 0;
+    setMotionOf(bodies_[body], velocity, spin);
+    compose();
 }
 
 void PhysicsWorld::throwAbout(std::uint64_t seed, double speed) {
@@ -105,8 +140,9 @@ void PhysicsWorld::throwAbout(std::uint64_t seed, double speed) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const double x = random.in(-0.5, 0.5), y = random.in(0.2, 0.7), z = random.in(-0.5, 0.5);
         const glm::dvec3 spin{random.in(-10, 10), random.in(-10, 10), random.in(-10, 10)};
-        setMotion(i, speed * glm::dvec3{x, y, z}, spin);
+        setMotionOf(bodies_[i], speed * glm::dvec3{x, y, z}, spin);
     }
+    compose();
 }
 
 void PhysicsWorld::remove(ObjectId object) {

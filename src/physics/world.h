@@ -5,6 +5,10 @@
 // apart, without velocity; (3) slow approaches end and resting contacts get the impulses that carry them through the part
 // (rest.cpp); (4) every ball flies to the part's end, from impact to impact (flight.h); (5) what lies still falls asleep.
 // What it does is the same on every machine and compiler, to the bit: see stateHash().
+//
+// Each of these is there if a row of the table of effects calls for it (stages.h): a part is composed of the stages that the
+// bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no ball is awake a
+// step only counts the time.
 #include "physics/flight.h"
 
 #include <string>
@@ -24,13 +28,16 @@ struct Energy {
 
 class PhysicsWorld {
 public:
-    explicit PhysicsWorld(const Scene& scene);
+    /// `choice`: to price a stage, and for tests; else the world is composed of what its scene calls for.
+    explicit PhysicsWorld(const Scene& scene, StageChoice choice = {});
 
     /// One dt of the scene's physics record.
     void step();
     std::uint64_t steps() const { return steps_; }
     double time_s() const { return static_cast<double>(steps_) * knobs_.dt; }
     double dt_s() const { return knobs_.dt; }
+    Stages stages() const { return stages_; }
+    const StepCounts& counts() const { return counts_; }
 
     std::span<const Body> bodies() const { return bodies_; }
     int awake() const;
@@ -70,17 +77,26 @@ private:
     };
 
     void addBody(const Scene& scene, std::size_t object);
+    bool has(Stage s) const { return stages_.has(s); }
+    void compose();
     void part(double h);
     std::vector<Contact> touching();
+    void touchStatics(std::vector<Contact>& io_contacts);
+    void touchBodies(std::vector<Contact>& io_contacts);
+    std::vector<Motion> rest(std::vector<Contact>& io_contacts, double h);
+    void dropImpacts(std::vector<Contact>& io_contacts, double h) const;
+    std::vector<Motion> falling() const;
+    void fly(std::span<const Motion> accelerations, double h);
     void wakeAndSleep(std::span<const Contact> contacts);
     void pushApart(std::span<const Contact> contacts, double h);
     void stopSlowApproaches(std::span<Contact> contacts);
-    std::vector<Motion> carry(std::span<const Contact> contacts, double h);
-    std::vector<Contact> atMidway(std::span<const Contact> contacts, double h) const;
+    void carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
+    std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
     void takeKept(std::span<Contact> contacts) const;
     void keep(std::span<const Contact> contacts);
     void countStill(std::span<const Contact> contacts, double h);
+    void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
     void tame();
     void removeWhere(const std::function<bool(const Body&)>& gone);
     void note(std::string text);
@@ -94,6 +110,9 @@ private:
     std::vector<Kept> kept_;
     std::vector<std::string> notes_;
     std::vector<ObjectId> gone_;
+    StageChoice choice_;
+    Stages stages_;
+    StepCounts counts_;
     std::uint64_t steps_ = 0, impacts_ = 0, held_ = 0, before_ = 0;
     int removed_ = 0, contacts_ = 0;
 };

@@ -221,6 +221,11 @@ TEST_CASE("simulate prints one line of JSON, and a trace whose last row is the e
     CHECK(json["steps"] == 50);
     CHECK(json["bodies"] == 1);
     CHECK(json["state"].get<std::string>().size() == 16);
+    // One ball makes no pair: no stage for pairs is called for, and none counts anything.
+    CHECK(json["stages"].dump().find("\"flight\"") != std::string::npos);
+    CHECK(json["counts"]["integrations"] == 50);
+    CHECK(json["stages"].dump().find("broad_phase") == std::string::npos);
+    CHECK(json["counts"]["broad_phases"] == 0);
     // After half a second of free fall: v = g t, and the energy it began with.
     CHECK(json["energy"]["kinetic"].get<double>() == doctest::Approx(0.5 * std::pow(9.81 * 0.5, 2)).epsilon(1e-9));
     CHECK(json["momentum"][1].get<double>() == doctest::Approx(-9.81 * 0.5));

@@ -1,0 +1,135 @@
+// What happens at the moment two things meet.
+#include "core/effects/effect.h"
+#include "physics/flight.h"
+
+#include <glm/geometric.hpp>
+
+namespace mb {
+namespace {
+constexpr int kImpactRounds = 60;
+}
+
+void Flight::addStaticContacts(int i, std::vector<Contact>& io_contacts) {
+    const Body& body = bodies_[static_cast<std::size_t>(i)];
+    NearStatics& near = near_[static_cast<std::size_t>(i)];
+    if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.radius)) return;
+    near.moveTo(field_, body.position, body.radius, counts_);
+    for (const Touch& touch : near.touches()) {
+        if (touch.gap > restDepth(body.radius)) continue;
+        ++counts_.static_contacts;
+        io_contacts.push_back({i, kStatic, touch.normal, touch.gap, pairing(rules_.world, body), 0, {}, 0, {}});
+    }
+}
+
+/// The contacts of one or two balls at this moment: between the two, and with what does not move.
+std::vector<Contact> Flight::contactsOf(int a, int b) {
+    std::vector<Contact> contacts;
+    if (has(Stage::static_contacts))
+        for (const int i : {a, b})
+            if (i != kStatic) addStaticContacts(i, contacts);
+    if (b == kStatic) return contacts;
+    const Body &x = bodies_[static_cast<std::size_t>(a)], &y = bodies_[static_cast<std::size_t>(b)];
+    ++counts_.body_contacts;
+    contacts.push_back({a, b, directionApart(x, y), glm::length(x.position - y.position) - x.radius - y.radius,
+                        pairing(rules_.world, x, y), 0, {}, 0, {}});
+    return contacts;
+}
+
+double Flight::energyOf(int i) const {
+    if (i == kStatic) return 0;
+    const Body& b = bodies_[static_cast<std::size_t>(i)];
+    const Motion& m = motion_[static_cast<std::size_t>(i)];
+    return 0.5 * (glm::dot(m.velocity, m.velocity) / b.inverse_mass + glm::dot(m.spin, m.spin) / b.inverse_inertia);
+}
+
+/// Newton's law of impact at every contact at once, with Coulomb's friction. No energy is made: where several contacts with
+/// restitution would make some together (as that law can; Brogliato, "Nonsmooth Mechanics", 1999), only the hardest counts
+/// now, which alone makes none, and the others are met next. Says whether an approach was fast.
+bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
+    const auto load = [&](int i) {
+        if (i != kStatic) motion_[static_cast<std::size_t>(i)] = {bodies_[static_cast<std::size_t>(i)].velocity, bodies_[static_cast<std::size_t>(i)].spin};
+    };
+    load(a), load(b);
+    const double before = energyOf(a) + energyOf(b);
+    double fastest = rules_.bounce;
+    std::size_t hardest = contacts.size();
+    for (Contact& c : contacts) {
+        const Motion* other = c.b == kStatic ? nullptr : &motion_[static_cast<std::size_t>(c.b)];
+        const glm::dvec3 v = relativeVelocity(bodies_, motion_[static_cast<std::size_t>(c.a)], other, c, has(Stage::spin));
+        const double approach = -glm::dot(v, c.normal);
+        if (has(Stage::restitution) && approach > rules_.bounce) ++counts_.bounces, c.target = c.pairing.restitution * approach;
+        if (approach > fastest) fastest = approach, hardest = static_cast<std::size_t>(&c - contacts.data());
+    }
+    const bool fast = hardest < contacts.size();
+    solve(bodies_, contacts, motion_, kImpactRounds, rules_.stages, counts_);
+    if (fast && energyOf(a) + energyOf(b) > before * (1 + 1e-9)) {  // more than the rounds leave unsolved
+        load(a), load(b);
+        Contact alone = contacts[hardest];
+        alone.push = 0, alone.drag = {};
+        solve(bodies_, {&alone, 1}, motion_, 1, rules_.stages, counts_);
+    }
+    for (const int i : {a, b}) {
+        if (i == kStatic) continue;
+        bodies_[static_cast<std::size_t>(i)].velocity = motion_[static_cast<std::size_t>(i)].velocity;
+        bodies_[static_cast<std::size_t>(i)].spin = motion_[static_cast<std::size_t>(i)].spin;
+    }
+    return fast;
+}
+
+/// Takes from the accelerations what would press the balls further into the contacts they now rest on.
+void Flight::support(const std::vector<Contact>& contacts) {
+    for (int round = 0; round < 8; ++round) {
+        for (const Contact& c : contacts) {
+            const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(std::max(c.b, 0));
+            const bool pair = c.b != kStatic;
+            const glm::dvec3 v = bodies_[a].velocity - (pair ? bodies_[b].velocity : glm::dvec3{0});
+            if (glm::dot(v, c.normal) > 1e-9) continue;
+            const glm::dvec3 acceleration = paths_[a].acceleration - (pair ? paths_[b].acceleration : glm::dvec3{0});
+            const double press = -glm::dot(acceleration, c.normal);
+            if (press <= 0) continue;
+            const double ma = bodies_[a].inverse_mass, mb = pair ? bodies_[b].inverse_mass : 0;
+            paths_[a].acceleration += (press * ma / (ma + mb)) * c.normal;
+            if (pair) paths_[b].acceleration -= (press * mb / (ma + mb)) * c.normal;
+        }
+    }
+}
+
+/// Leaves a ball where it is for the rest of the part, with its velocity: neither energy nor a wall is lost by that.
+void Flight::hold(std::size_t i) {
+    if (!paths_[i].held) ++held;
+    paths_[i].held = true;
+}
+
+void Flight::meet(const Event& event) {
+    const std::array<int, 2> both{event.a, event.b};
+    ++impacts;
+    for (const int i : both) {
+        if (i == kStatic) continue;
+        const auto k = static_cast<std::size_t>(i);
+        advance(k, event.time);
+        ++paths_[k].version, ++paths_[k].events;
+        if (!bodies_[k].awake) {
+            // It was at rest on something: the impact finds out on what.
+            bodies_[k].awake = true, bodies_[k].still = 0;
+            paths_[k].acceleration = {}, paths_[k].turning = {};
+        }
+    }
+    std::vector<Contact> contacts = contactsOf(event.a, event.b);
+    const bool fast = bounceApart(contacts, event.a, event.b);
+    const bool waits = event.b != kStatic && (paths_[static_cast<std::size_t>(event.a)].held || paths_[static_cast<std::size_t>(event.b)].held);
+    for (const int i : both) {
+        if (i == kStatic) continue;
+        const auto k = static_cast<std::size_t>(i);
+        paths_[k].turning = {};
+        if (fast) paths_[k].acceleration = {0, -rules_.world.gravity, 0};
+        if (waits || contacts.empty() || paths_[k].events > kEventsAPart) hold(k);
+    }
+    support(contacts);
+    for (const int i : both) {
+        if (i == kStatic) continue;
+        growReach(static_cast<std::size_t>(i));
+        expectAll(static_cast<std::size_t>(i));
+    }
+}
+
+}  // namespace mb
