@@ -3,6 +3,7 @@
 // its life.
 #include "core/effects/plan.h"
 #include "core/render/blocks.h"
+#include "core/render/compiler.h"
 #include "core/render/grid_buffers.h"
 #include "core/render/program.h"
 #include "core/render/targets.h"
@@ -55,10 +56,12 @@ inline constexpr std::size_t kStraightLeaves = 12;
 
 class Renderer {
 public:
-    Renderer();
+    /// With a compiler, a picture whose program is not compiled yet is put off until it is; without one, draw() compiles it.
+    explicit Renderer(std::unique_ptr<Compiler> compiler = nullptr);
     void setEvaluation(Evaluation evaluation) { evaluation_ = evaluation; }
 
-    /// Draws the scene into picture(). Returns why it could not, or nothing; then the last picture stays.
+    /// Draws the scene into picture(). Returns why it could not, or nothing. The last picture stays then, and also where this
+    /// one was put off.
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     /// The picture last drawn: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
@@ -69,6 +72,9 @@ public:
     std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out);
     /// The scene's own functions at points, in the world's coordinates.
     std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
+    /// Whether the last draw() or measure() did nothing because its program is not compiled yet; and whether it still is not.
+    bool putOff() const { return !awaited_.empty(); }
+    bool compiling();
     /// Puts the picture on the framebuffer now bound to 0, into the rectangle of that corner and size, as sRGB.
     void present(glm::ivec2 corner, glm::ivec2 size);
 
@@ -77,11 +83,12 @@ public:
     const GridWork& gridWork() const { return grid_work_; }  // of the last scene drawn; nothing where it has no grid
     const Grid* grid() const { return through_grid_ ? &marched_.grid : nullptr; }  // that the last picture was drawn through; null: none
     int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
+    std::size_t programs() const { return programs_.size(); }  // of them, those kept for when they are wanted again
 
 private:
     struct Ready {
         std::string why;              // it cannot be drawn
-        const Program* program = nullptr;
+        const Program* program = nullptr;  // null also where it is put off
         Packed packed;
         GpuFrame frame{};
         bool grid = false;
@@ -90,6 +97,8 @@ private:
 
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
     const Program* program(Variant variant, const Tree& tree, const Ready& ready, std::string& why);
+    void keep(std::string text, Program program);
+    void keepCompiled();
     std::string upload(const Ready& ready);
     template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
     void bindFrame(const GpuFrame& frame);
@@ -99,6 +108,8 @@ private:
         Program program;
     };
     std::list<Cached> programs_;      // the last used first
+    std::unique_ptr<Compiler> compiler_;
+    std::string awaited_;             // the text of the program that the last picture was put off for; empty: it was not
     int compiled_ = 0;
     Plan plan_;
     std::string name_;
