@@ -32,15 +32,16 @@ ImGuiWindowFlags barFlags() {
 std::string motionText(const Ui& ui) {
     const Simulation& s = ui.editor.simulation();
     if (!s.playing) return s.steps() > 0 ? fmt::format("Paused at step {}", s.steps()) : "Paused";
+    if (s.asleep()) return fmt::format("Playing; the world sleeps, step {}", s.steps());
     return s.ratio() > 0.95 ? fmt::format("Playing, step {}", s.steps())
                             : fmt::format("Playing at {:.0f} % of real time, step {}", 100 * s.ratio(), s.steps());
 }
 
 std::string pictureText(const PictureState& p) {
-    if (p.drawn.x == 0) return "no picture yet";
+    if (p.drawn.x == 0) return p.compiling ? "compiling" : "no picture yet";
     const std::string size = p.drawn == p.full ? fmt::format("{}x{}", p.full.x, p.full.y)
                                                : fmt::format("{}x{} of {}x{}", p.drawn.x, p.drawn.y, p.full.x, p.full.y);
-    return fmt::format("{}, {:.0f} ms{}", size, p.ms, p.refining ? ", refining" : "");
+    return fmt::format("{}, {:.0f} ms{}", size, p.ms, p.compiling ? ", compiling" : p.refining ? ", refining" : "");
 }
 
 }  // namespace
@@ -96,11 +97,14 @@ void drawStatusBar(Ui& ui) {
 void drawMessage(Ui& ui) {
     Message message = ui.editor.message();
     if (message.text.empty() && !ui.picture.why.empty()) message = {true, ui.picture.why};
-    if (message.text != ui.message_shown) ui.message_shown = message.text, ui.message_age = 0;
-    ui.message_age += static_cast<double>(ImGui::GetIO().DeltaTime);
-    if (message.text.empty()) return;
     const bool several = message.text.find('\n') != std::string::npos;
-    if (!message.error && ui.message_age > (several ? 3 * kMessageSeconds : kMessageSeconds)) return ui.editor.say(false, {});
+    if (message.text != ui.message_shown) {
+        const bool stays = message.error || message.text.empty();
+        ui.message_shown = message.text;
+        ui.message_until = stays ? kForever : ImGui::GetTime() + (several ? 3 * kMessageSeconds : kMessageSeconds);
+    }
+    if (message.text.empty()) return;
+    if (ImGui::GetTime() >= ui.message_until) return ui.editor.say(false, {});
 
     // Above the status bar, as wide as the picture.
     const float width = std::max(ui.picture_size.x - 24, 60.0f);

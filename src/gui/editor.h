@@ -95,6 +95,8 @@ public:
     // Time (editor_motion.cpp).
     const Simulation& simulation() const { return simulation_; }
     bool playing() const { return simulation_.playing; }
+    /// Whether the next advance() can change anything.
+    bool moving() const { return playing() && !simulation_.asleep(); }
     void play();
     void pause() { simulation_.playing = false; }
     /// The bodies as the next step finds them; null where the scene cannot be stepped.

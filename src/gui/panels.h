@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <functional>
+#include <limits>
 #include <set>
 #include <span>
 #include <string>
@@ -19,6 +20,7 @@ struct PictureState {
     glm::ivec2 drawn{0}, full{0};  // pixels of the picture shown, and of the place it is shown in
     double ms = 0;                 // of the last picture drawn
     bool refining = false;
+    bool compiling = false;        // what is to be drawn or counted waits for its program; the last picture shows
     std::string why;               // it cannot be drawn; the last one that could still shows
     std::string renderer;          // GL_RENDERER
     const Grid* grid = nullptr;    // it was drawn through that; null: through none
@@ -31,6 +33,8 @@ struct KeyPress {
     int key = 0;        // GLFW's number
     bool ctrl = false, repeated = false;
 };
+
+inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
 struct Ui {
     explicit Ui(Editor& edited);
@@ -61,7 +65,7 @@ struct Ui {
     std::string save_name;             // typed into that question
     std::uint64_t planned_revision = 0;
     Plan plan;
-    double message_age = 0;
+    double message_until = kForever;   // ImGui's time when it goes by itself
     std::string message_shown;
 
     bool isOpen(const char* panel) const;

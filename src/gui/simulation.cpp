@@ -19,10 +19,12 @@ bool Simulation::advance(Scene& scene, double seconds) {
     int made = 0;
     const Clock::time_point start = Clock::now();
     const auto late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > kMostSeconds; };
-    while (owed_ >= dt && made < kMostSteps && (made == 0 || !late())) {
-        ready(scene).step();
+    ready(scene);
+    while (owed_ >= dt && made < kMostSteps && !asleep() && (made == 0 || !late())) {
+        world_->step();
         owed_ -= dt, ++made;
     }
+    if (asleep()) owed_ = 0;
     // What is left of a step waits for the next call; whole steps that could not be made are dropped.
     const double dropped = owed_ >= dt ? owed_ - std::fmod(owed_, dt) : 0;
     owed_ -= dropped;

@@ -17,7 +17,8 @@ public:
     bool playing = false;
     std::uint64_t throws = 1;                     // the next throw's seed: the same session throws the same way
 
-    /// Makes as many steps as `seconds` of wall time hold and writes the bodies back; says whether any was made.
+    /// Makes as many steps as `seconds` of wall time hold and writes the bodies back; says whether any was made. Where every
+    /// body sleeps, time stands still.
     bool advance(Scene& scene, double seconds);
     /// Makes one step.
     void step(Scene& scene);
@@ -29,6 +30,8 @@ public:
     void stop() { playing = false, owed_ = 0, steps_ = 0, ratio_ = 1, world_.reset(); }
 
     std::uint64_t steps() const { return steps_; }
+    /// Nothing moves until something wakes a body: a throw, an edit.
+    bool asleep() const { return world_ && world_->awake() == 0; }
     /// Simulated seconds a second of wall time: 1, or less where the machine is too slow.
     double ratio() const { return ratio_; }
     const PhysicsWorld* world() const { return world_ ? &*world_ : nullptr; }

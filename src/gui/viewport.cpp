@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace mb {
 namespace {
@@ -32,7 +33,7 @@ glm::ivec2 sizeWithin(glm::ivec2 full, double pixels) {
 
 }  // namespace
 
-Viewport::Viewport() : renderer_(std::make_unique<Renderer>()) {}
+Viewport::Viewport(std::unique_ptr<Compiler> compiler) : renderer_(std::make_unique<Renderer>(std::move(compiler))) {}
 Viewport::~Viewport() = default;
 
 /// What is shown is kept in a picture of the window's size, so that a frame where nothing changed only copies it.
@@ -69,24 +70,25 @@ void Viewport::showKept() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-/// Draws into the renderer's picture and measures; a frame that compiled a shader says nothing of the next one's time.
+/// Draws into the renderer's picture and measures; says whether it could.
 bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
-    const int compiled = renderer_->compiled();
     const double start = nowMs();
     why_ = renderer_->draw(scene, camera, size);
-    if (!why_.empty()) return false;
+    put_off_ = renderer_->putOff();
+    if (!why_.empty() || put_off_) return false;
     gl.Finish();
     ms_ = nowMs() - start;
-    return renderer_->compiled() == compiled;
+    return true;
 }
 
 void Viewport::drawPreview(const Scene& scene, const Camera& camera) {
     const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
-    const bool typical = draw(scene, camera, size);
-    if (!why_.empty()) return;
+    if (!draw(scene, camera, size)) return;
+    // A program's first frame says nothing of the next one's time.
+    const bool typical = std::exchange(compiled_, renderer_->compiled()) == renderer_->compiled();
     const double ns = ms_ * 1e6 / (static_cast<double>(size.x) * size.y);
     if (typical) ns_per_pixel_ = std::clamp(0.5 * (ns_per_pixel_ + ns), 1.0, 1e7);
-    gl.BindTexture(GL_TEXTURE_2D, renderer_->picture().texture(0));
+    gl.BindTexture(GL_TEXTURE_2D, renderer_->shown().texture(0));
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     renderer_->present(corner_, size_);
     keepShown(corner_, size_);
@@ -101,14 +103,14 @@ void Viewport::drawTile(const Scene& scene, const Camera& camera) {
     const int rows = std::clamp(static_cast<int>(pixels / size_.x), 1, size_.y - next_row_);
     gl.Enable(GL_SCISSOR_TEST);
     gl.Scissor(0, next_row_, size_.x, rows);
-    draw(scene, camera, size_);
-    if (why_.empty()) {
+    const bool drawn = draw(scene, camera, size_);
+    if (drawn) {
         gl.Scissor(corner_.x, corner_.y + next_row_, size_.x, rows);
         renderer_->present(corner_, size_);
     }
     gl.Disable(GL_SCISSOR_TEST);
-    if (!why_.empty()) {
-        refined_ = true;
+    if (!drawn) {
+        refined_ = !why_.empty();
         return;
     }
     keepShown(corner_ + glm::ivec2{0, next_row_}, {size_.x, rows});
@@ -119,18 +121,21 @@ void Viewport::drawTile(const Scene& scene, const Camera& camera) {
     if (next_row_ >= size_.y) refined_ = true, drawn_ = size_, shown_ms_ = refining_ms_;
 }
 
-/// What a picture takes, counted at a size that a frame has time for.
-std::string Viewport::count(const Scene& scene, const Camera& camera) {
+/// Answers what a picture takes, counted at a size that a frame has time for, once the program that counts is there.
+void Viewport::count(const Scene& scene, const Camera& camera, PictureState& state) {
+    if (put_off_ || renderer_->compiling()) return;
     const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
     Measured measured;
-    if (const std::string why = renderer_->measure(scene, camera, size, measured); !why.empty()) return why;
+    state.counts = renderer_->measure(scene, camera, size, measured);
+    state.count_wanted = renderer_->putOff();
+    if (state.count_wanted || !state.counts.empty()) return;
     const Counts& c = measured.counts;
     const double pixels = static_cast<double>(size.x) * size.y;
     const auto each = [&](std::uint64_t n) { return static_cast<double>(n) / pixels; };
-    return fmt::format("at {}x{}, evaluations a pixel: {:.1f} primary, {:.1f} normal, {:.1f} shadow, {:.1f} reflection; undecided: {} of {} pixels, "
-                       "{} of {} shadow rays, {} of {} reflected rays", size.x, size.y, each(c.evaluations.primary), each(c.evaluations.normal),
-                       each(c.evaluations.shadow), each(c.evaluations.reflection), c.pixels.undecided, size.x * size.y, c.undecided_rays.shadow,
-                       c.rays.shadow, c.undecided_rays.reflection, c.rays.reflection);
+    state.counts = fmt::format("at {}x{}, evaluations a pixel: {:.1f} primary, {:.1f} normal, {:.1f} shadow, {:.1f} reflection; undecided: {} of {} pixels, "
+                               "{} of {} shadow rays, {} of {} reflected rays", size.x, size.y, each(c.evaluations.primary),
+                               each(c.evaluations.normal), each(c.evaluations.shadow), each(c.evaluations.reflection), c.pixels.undecided,
+                               size.x * size.y, c.undecided_rays.shadow, c.rays.shadow, c.undecided_rays.reflection, c.rays.reflection);
 }
 
 void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state) {
@@ -142,11 +147,16 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     corner_ = corner, size_ = size;
     gl.Viewport(0, 0, window.x, window.y);
     if (size.x < 1 || size.y < 1) return showKept();
+    if (!std::exchange(begun_, true)) {
+        busy_ = state.compiling = true;  // the panels come up before the first picture, which takes longer
+        return showKept();
+    }
 
     const double now = nowMs();
-    if (moved || editor.revision() != drawn_revision_) {
-        drawn_revision_ = editor.revision(), changed_at_ = now;
-        showKept();
+    const bool changed = moved || editor.revision() != drawn_revision_, compiled = put_off_ && !renderer_->compiling();
+    showKept();
+    if (changed) drawn_revision_ = editor.revision(), changed_at_ = now;
+    if (changed || compiled) {
         if (editor.scene().render.samples == 1) {
             drawPreview(editor.scene(), editor.camera());
         } else {
@@ -156,17 +166,18 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
             refined_ = false;
         }
         if (!why_.empty()) refined_ = true;
-    } else {
-        showKept();
-        if (!refined_ && now - changed_at_ > kStillMs) drawTile(editor.scene(), editor.camera());
+    } else if (!refined_ && !put_off_ && now - changed_at_ > kStillMs) {
+        drawTile(editor.scene(), editor.camera());
     }
-    if (!why_.empty() && moved) renderer_->present(corner_, size_), keepShown(corner_, size_);  // the last one that could be drawn
-    else if (!why_.empty()) showKept();
-    if (state.count_wanted) state.count_wanted = false, state.counts = count(editor.scene(), editor.camera());
-    busy_ = !refined_;
+    const bool last_stays = !why_.empty() || put_off_;
+    if (last_stays && moved) renderer_->present(corner_, size_), keepShown(corner_, size_);
+    else if (last_stays) showKept();
+    if (state.count_wanted) count(editor.scene(), editor.camera(), state);
+    state.compiling = put_off_ || state.count_wanted;
+    busy_ = !refined_ || state.compiling;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.grid = renderer_->grid();
-    state.refining = busy_ && next_row_ > 0;
+    state.refining = !refined_ && next_row_ > 0;
 }
 
 }  // namespace mb

@@ -14,8 +14,8 @@ public:
     static constexpr double kFrameMs = 45;   // what a frame's drawing may take, so that the panels stay alive
     static constexpr double kStillMs = 150;  // without a change for so long, the picture is refined
 
-    /// Needs the window's context current.
-    Viewport();
+    /// Needs the window's context current. With no compiler, a new program is waited for.
+    explicit Viewport(std::unique_ptr<Compiler> compiler);
     ~Viewport();
 
     /// Draws what there is to draw of the editor's scene and shows it on framebuffer 0, whose size in pixels is `window`,
@@ -27,7 +27,7 @@ public:
 private:
     void drawPreview(const Scene& scene, const Camera& camera);
     void drawTile(const Scene& scene, const Camera& camera);
-    std::string count(const Scene& scene, const Camera& camera);
+    void count(const Scene& scene, const Camera& camera, PictureState& state);
     bool draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     void keepShown(glm::ivec2 corner, glm::ivec2 size);
     void showKept();
@@ -42,7 +42,9 @@ private:
     double ns_per_pixel_ = 2000;       // of the last pictures
     glm::ivec2 drawn_{0};              // the size of the preview
     int next_row_ = 0;                 // of the refinement, in pixels from the bottom
-    bool busy_ = true, refined_ = false;
+    int compiled_ = 0;                 // programs there were when a picture was last drawn
+    bool busy_ = true, refined_ = false, begun_ = false;
+    bool put_off_ = false;             // the picture wanted waits for its program; the last one is shown
     double ms_ = 0, refining_ms_ = 0, shown_ms_ = 0;  // of the last draw, of the rows so far, of the picture shown
     std::string why_;
 };

@@ -1,10 +1,10 @@
 #include "gui/window.h"
 
-#include "core/render/loader.h"
 #include "core/scene/text.h"
 #include "gui/look.h"
 #include "gui/panels.h"
 #include "gui/viewport.h"
+#include "gui/window_context.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -21,8 +22,8 @@ namespace mb {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 60;   // where the screen sets no pace
-constexpr double kRestSeconds = 0.4;         // between frames while nothing happens
-constexpr int kFramesAfterEvent = 4;         // a control needs a few to settle
+constexpr double kBlinkSeconds = 0.4;        // between frames while a text cursor blinks
+constexpr int kFramesAfterEvent = 12;        // as long as Dear ImGui's slowest control takes to settle, which is a question's fading in
 
 std::string g_glfw_error;
 
@@ -87,17 +88,17 @@ struct Panels {
 /// Waits for something to happen if nothing moves, and keeps a pace where the screen keeps none.
 class Pace {
 public:
-    /// Lets events in; returns the wall time since the last call.
-    double next(bool moving, bool typing) {
+    /// Lets events in, and waits for one, `most` seconds at most, while nothing moves. Returns the wall time since the last call.
+    double next(bool moving, double most) {
         if (moving || awake_ > 0) {
             --awake_;
             const double rest = last_ + kFrameSeconds - glfwGetTime();
             if (rest > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest));
             glfwPollEvents();
         } else {
-            const double before = glfwGetTime(), most = typing ? kRestSeconds / 4 : kRestSeconds;
-            glfwWaitEventsTimeout(most);
-            if (glfwGetTime() - before < 0.9 * most) awake_ = kFramesAfterEvent;
+            const double until = glfwGetTime() + most;
+            std::isfinite(most) ? glfwWaitEventsTimeout(most) : glfwWaitEvents();
+            if (glfwGetTime() < until) awake_ = kFramesAfterEvent;
         }
         if (moving) awake_ = std::max(awake_, 1);
         const double now = glfwGetTime(), passed = now - last_;
@@ -111,6 +112,12 @@ private:
     double last_ = glfwGetTime(), average_ = 0;
     int awake_ = kFramesAfterEvent;
 };
+
+/// How long a picture of the panels that nothing has changed stays as it is.
+double staysFor(const Ui& ui) {
+    const double message = std::max(ui.message_until - ImGui::GetTime(), 0.0);
+    return ImGui::GetIO().WantTextInput ? std::min(message, kBlinkSeconds) : message;
+}
 
 void setTitle(GLFWwindow* window, const Editor& editor, std::string& shown) {
     const std::string name = editor.path().empty() ? "new scene" : editor.path().filename().string();
@@ -143,15 +150,20 @@ void drawFrame(GLFWwindow* window, Ui& ui, Viewport& viewport) {
     glfwSwapBuffers(window);
 }
 
-void loop(GLFWwindow* window, Editor& editor, const EditorOptions& options) {
+void loop(WindowContext& context, Editor& editor, const EditorOptions& options) {
+    GLFWwindow* window = context.window();
     Panels panels(window);
-    Viewport viewport;
+    std::string why;
+    auto compiler = Compiler::start(context, why);
+    if (!compiler) std::fputs(fmt::format("marchbox: new programs will be waited for: {}\n", why).c_str(), stderr);
+    Viewport viewport(std::move(compiler));
     Ui ui(editor);
     glfwSetWindowUserPointer(window, &ui);
     Pace pace;
     std::string title;
     while (!ui.quit) {
-        const double passed = pace.next(viewport.busy() || editor.playing(), ImGui::GetIO().WantTextInput);
+        // A button held down may repeat what it does.
+        const double passed = pace.next(viewport.busy() || editor.moving() || ImGui::IsAnyMouseDown(), staysFor(ui));
         ui.frames_per_second = pace.framesPerSecond();
         editor.advance(passed);
         if (glfwWindowShouldClose(window)) {
@@ -181,11 +193,9 @@ int runEditor(const EditorOptions& options) {
     if (!glfw.ready) return fail(3, fmt::format("no window can be opened: {}", g_glfw_error));
     GLFWwindow* window = makeWindow(options);
     if (!window) return fail(3, fmt::format("no window with OpenGL 3.3 can be had: {}", g_glfw_error));
-    glfwMakeContextCurrent(window);
-    glfwSwapInterval(1);
-    const std::string why = loadOpenGl(glfwGetProcAddress);
-    if (why.empty()) loop(window, editor, options);
-    glfwDestroyWindow(window);
+    WindowContext context(window, true);
+    const std::string why = context.makeCurrent();
+    if (why.empty()) glfwSwapInterval(1), loop(context, editor, options);
     return why.empty() ? 0 : fail(3, why);
 }
 

@@ -11,7 +11,13 @@ public:
     virtual ~Context() = default;
     /// Makes it the one that OpenGL's functions act on. Returns what is wrong, or nothing.
     virtual std::string makeCurrent() = 0;
-    virtual std::string_view name() const = 0;  // "OSMesa", "EGL"
+    /// Leaves this thread without a context, so that it may become another's.
+    virtual void release() = 0;
+    /// A context for another thread that shares this one's textures, buffers and programs. Call it where this one is current,
+    /// which it stays; the new one is not current anywhere, and its makeCurrent() finds OpenGL's functions loaded. Null with
+    /// the reason in `why`. It must go before this one does.
+    virtual std::unique_ptr<Context> makeShared(std::string& why) = 0;
+    virtual std::string_view name() const = 0;  // "OSMesa", "EGL", "window"
 };
 
 enum class Headless { any, osmesa, egl };

@@ -43,9 +43,10 @@ const EglLibrary& library() {
 
 class Egl final : public Context {
 public:
-    Egl(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    Egl(EGLDisplay display, EGLConfig config, EGLContext context, bool first)
+        : display_(display), config_(config), context_(context), first_(first) {}
     ~Egl() override {
-        library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (first_) release();  // another's thread has left a shared one already
         library().destroy(display_, context_);
     }
     Egl(const Egl&) = delete;
@@ -54,13 +55,26 @@ public:
     std::string makeCurrent() override {
         library().bind(EGL_OPENGL_API);
         if (!library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return "EGL: it cannot be made current";
-        return loadOpenGl(library().get);
+        return first_ ? loadOpenGl(library().get) : std::string{};
     }
+    void release() override { library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+    std::unique_ptr<Context> makeShared(std::string& why) override { return make(display_, config_, context_, why); }
     std::string_view name() const override { return "EGL"; }
+
+    static std::unique_ptr<Context> make(EGLDisplay display, EGLConfig config, EGLContext share, std::string& why) {
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        const EGLContext made = library().create(display, config, share, attributes);
+        if (made != EGL_NO_CONTEXT) return std::make_unique<Egl>(display, config, made, share == EGL_NO_CONTEXT);
+        why = "EGL: it offers no OpenGL 3.3 core context";
+        return nullptr;
+    }
 
 private:
     EGLDisplay display_;
+    EGLConfig config_;
     EGLContext context_;
+    bool first_;  // of those that share: it loads the functions
 };
 
 }  // namespace
@@ -77,15 +91,12 @@ std::unique_ptr<Context> makeEgl(std::string& why) {
     const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
-    egl.choose(display, wanted, &config, 1, &count);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    const EGLContext made = count > 0 ? egl.create(display, config, EGL_NO_CONTEXT, attributes) : EGL_NO_CONTEXT;
-    if (made == EGL_NO_CONTEXT) {
-        why = "EGL: it offers no OpenGL 3.3 core context";
+    if (!egl.choose(display, wanted, &config, 1, &count) || count < 1) {
+        why = "EGL: it offers no configuration for OpenGL";
         return nullptr;
     }
-    auto context = std::make_unique<Egl>(display, made);
+    auto context = Egl::make(display, config, EGL_NO_CONTEXT, why);
+    if (!context) return nullptr;
     why = context->makeCurrent();
     if (!why.empty()) return nullptr;
     return context;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kNoItems = 0xFFFFFFFFu, kWhole = 1;
 constexpr std::size_t kBlock = kBrick * kBrick * kBrick;
+constexpr std::size_t kLeastRoom = 6144;  // bytes
 constexpr std::size_t kGap = 64;  // unchanged blocks that are sent again rather than begin a new piece
 
 std::uint32_t ballOf(const GridCell& cell, std::uint32_t flag) { return (std::bit_cast<std::uint32_t>(cell.empty ? cell.safe : 0.0f) & ~kWhole) | flag; }
@@ -32,7 +33,9 @@ bool GridBuffers::reserve(Store& store, std::size_t bytes, GLenum texel) {
     }
     glBindBuffer(GL_TEXTURE_BUFFER, store.buffer);
     if (store.room >= bytes && store.room > 0) return false;
-    store.room = std::max<std::size_t>(bytes + bytes / 2, 4096);
+    // A multiple of three, never a power of two: software OpenGL has other code for those, and would compile anew where
+    // a scene grows into one, or out of one.
+    store.room = std::max(bytes + bytes / 2, kLeastRoom);
     glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(store.room), nullptr, GL_DYNAMIC_DRAW);
     gl.BindTexture(GL_TEXTURE_BUFFER, store.texture);
     glTexBuffer(GL_TEXTURE_BUFFER, texel, store.buffer);

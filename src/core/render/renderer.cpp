@@ -13,8 +13,8 @@
 namespace mb {
 namespace {
 
-constexpr std::size_t kProgramsKept = 32;
-constexpr int kChannelAttachments = 8;
+constexpr std::size_t kMostPrograms = 32;  // alive at once
+constexpr int kPictureAttachments = 2, kChannelAttachments = 8;
 
 bool isTurned(const Tree& tree) {
     const auto turned = [](const auto& x) { return x.rotation != glm::dmat3(1); };
@@ -33,7 +33,7 @@ glm::dvec2 samplePlace(int i, int n) {
     return at - glm::floor(at) - 0.5;
 }
 
-Renderer::Renderer() {
+Renderer::Renderer(std::unique_ptr<Compiler> compiler) : compiler_(std::move(compiler)) {
     name_ = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
     gl.GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block_bytes_);
     for (GLuint point = 0; point < static_cast<GLuint>(BlockPoint::count); ++point) {
@@ -45,16 +45,13 @@ Renderer::Renderer() {
 
 std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
     const Ready ready = prepare(scene, camera, size, Variant::plain, camera.eye);
-    if (!ready.why.empty()) return ready.why;
-    if (picture_.size() != size) picture_ = Targets(size, 2);
+    if (!ready.program) return ready.why;
+    if (picture_.size() != size) picture_ = Targets(size, kPictureAttachments);
     picture_.clear();
-    gl.Enable(GL_BLEND);
-    gl.BlendFunc(GL_ONE, GL_ONE);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_ALWAYS);
-    eachPass(scene, ready.frame, [&] { quad_.draw(); });
-    gl.Disable(GL_BLEND);
-    gl.Disable(GL_DEPTH_TEST);
+    {
+        const AddingUp adding;
+        eachPass(scene, ready.frame, [&] { quad_.draw(); });
+    }
     return develop(ready);
 }
 
@@ -65,8 +62,8 @@ std::string Renderer::develop(const Ready& ready) {
         return {};
     }
     std::string why;
-    const Program* film = program(compose(Variant::develop, {}, plan_, ready.packed, ready.grid), why);
-    if (!why.empty()) return why;
+    const Program* film = program(Variant::develop, compose(Variant::develop, {}, plan_, ready.packed, ready.grid), ready.grid, why);
+    if (!film) return why;
     if (developed_.size() != picture_.size()) developed_ = Targets(picture_.size(), 1);
     developed_.bind();
     glUseProgram(film->name);
@@ -124,7 +121,7 @@ void addCounts(const Targets& channels, Counts& c) {
 
 std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted) {
     Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
-    if (!ready.why.empty()) return ready.why;
+    if (!ready.program) return ready.why;
     if (counted) ready.frame.counted.x = static_cast<int>(numberOf(*counted));
     channels_ = Targets(size, kChannelAttachments);
     out = {};
@@ -199,6 +196,7 @@ void Renderer::present(glm::ivec2 corner, glm::ivec2 size) {
 
 Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin) {
     Ready ready;
+    awaited_.clear();
     const int most = maxTargetSize();
     if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
         ready.why = fmt::format("a picture of {}x{} pixels: each side must be between 1 and {}", size.x, size.y, most);
@@ -222,8 +220,8 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
-    ready.program = program(compose(variant, tree, plan_, ready.packed, ready.grid), ready.why);
-    if (!ready.why.empty()) return ready;
+    ready.program = program(variant, compose(variant, tree, plan_, ready.packed, ready.grid), ready.grid, ready.why);
+    if (!ready.program) return ready;
     glUseProgram(ready.program->name);
     if (ready.grid) grid.buffers.bind(*ready.program);
     return ready;
@@ -248,7 +246,7 @@ Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, 
     } else {
         Composed to = stripped(whole);
         stripped_.push_front({std::move(whole.text), std::move(to)});
-        if (stripped_.size() > kProgramsKept) stripped_.pop_back();
+        if (stripped_.size() > kMostPrograms) stripped_.pop_back();
     }
     return stripped_.front().to;
 }
@@ -258,18 +256,39 @@ std::string Renderer::textOf(const Scene& scene) const {
     return compose(Variant::plain, tree, makePlan(scene, tree, choice_), pack(scene, tree, {}), usesGrid(tree)).text;
 }
 
-const Program* Renderer::program(const Composed& composed, std::string& why) {
+const Program* Renderer::program(Variant variant, const Composed& composed, bool grid, std::string& why) {
+    keepCompiled();
     const auto known = std::ranges::find(programs_, composed.text, &Cached::text);
     if (known != programs_.end()) {
         programs_.splice(programs_.begin(), programs_, known);
+    } else if (compiler_ && (variant == Variant::plain || variant == Variant::counted)) {
+        const bool adds = variant == Variant::plain;
+        compiler_->want({composed, adds ? kPictureAttachments : kChannelAttachments, adds, grid});
+        awaited_ = composed.text;
+        return nullptr;
     } else {
-        programs_.push_front({composed.text, makeProgram(composed)});
-        ++compiled_;
-        if (programs_.size() > kProgramsKept) programs_.pop_back();
+        keep(composed.text, makeProgram(composed));
     }
     const Program& program = programs_.front().program;
-    if (!program.usable()) why = "the shader does not compile:\n" + program.log;
-    return &program;
+    if (program.usable()) return &program;
+    why = "the shader does not compile:\n" + program.log;
+    return nullptr;
+}
+
+void Renderer::keep(std::string text, Program program) {
+    if (programs_.size() >= kMostPrograms - (compiler_ ? Compiler::kHeld : 0)) programs_.pop_back();
+    programs_.push_front({std::move(text), std::move(program)});
+    ++compiled_;
+}
+
+void Renderer::keepCompiled() {
+    if (!compiler_) return;
+    if (auto done = compiler_->take()) keep(std::move(done->text), std::move(done->program));
+}
+
+bool Renderer::compiling() {
+    keepCompiled();
+    return putOff() && std::ranges::find(programs_, awaited_, &Cached::text) == programs_.end();
 }
 
 std::string Renderer::upload(const Ready& ready) {

@@ -3,6 +3,7 @@
 // its life.
 #include "core/effects/plan.h"
 #include "core/render/blocks.h"
+#include "core/render/compiler.h"
 #include "core/render/grid_buffers.h"
 #include "core/render/program.h"
 #include "core/render/targets.h"
@@ -57,14 +58,16 @@ enum class Evaluation { automatic, straight, grid };
 
 class Renderer {
 public:
-    Renderer();
+    /// With a compiler, a picture whose program is not compiled yet is put off until it is; without one, draw() compiles it.
+    explicit Renderer(std::unique_ptr<Compiler> compiler = nullptr);
     void setEvaluation(Evaluation evaluation) { evaluation_ = evaluation; }
     /// What the programs hold against the scenes' own word, from now on.
     void choose(const Choice& choice) { choice_ = choice; }
     /// Another shader library than the program's own: a test's.
     void setLibrary(Texts texts) { library_ = std::move(texts); }
 
-    /// Draws the scene into picture(). Returns why it could not, or nothing; then the last picture stays.
+    /// Draws the scene into picture(). Returns why it could not, or nothing. The last picture stays then, and also where this
+    /// one was put off.
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     /// The picture last drawn: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
@@ -78,6 +81,9 @@ public:
     std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted = nullptr);
     /// The scene's own functions at points, in the world's coordinates.
     std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
+    /// Whether the last draw() or measure() did nothing because its program is not compiled yet; and whether it still is not.
+    bool putOff() const { return !awaited_.empty(); }
+    bool compiling();
     /// Puts the picture on the framebuffer now bound to 0, into the rectangle of that corner and size, as sRGB.
     void present(glm::ivec2 corner, glm::ivec2 size);
 
@@ -88,11 +94,12 @@ public:
     int compiled() const { return compiled_; }       // programs compiled so far; a change of values adds none
     /// The text of the program that draw() would use.
     std::string textOf(const Scene& scene) const;
+    std::size_t programs() const { return programs_.size(); }  // of them, those kept for when they are wanted again
 
 private:
     struct Ready {
         std::string why;              // it cannot be drawn
-        const Program* program = nullptr;
+        const Program* program = nullptr;  // null also where it is put off
         Packed packed;
         GpuFrame frame{};
         bool grid = false;
@@ -102,8 +109,10 @@ private:
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
     Composed compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const;
     bool usesGrid(const Tree& tree) const;
-    const Program* program(const Composed& composed, std::string& why);
+    const Program* program(Variant variant, const Composed& composed, bool grid, std::string& why);
     std::string develop(const Ready& ready);
+    void keep(std::string text, Program program);
+    void keepCompiled();
     std::string upload(const Ready& ready);
     template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
     void bindFrame(const GpuFrame& frame);
@@ -119,6 +128,8 @@ private:
     };
     mutable std::list<Stripped> stripped_;  // the last used first
     std::list<Cached> programs_;      // the last used first
+    std::unique_ptr<Compiler> compiler_;
+    std::string awaited_;             // the text of the program that the last picture was put off for; empty: it was not
     int compiled_ = 0;
     Plan plan_;
     std::string name_;

@@ -71,6 +71,17 @@ std::vector<float> Targets::readDepth() const {
     return readPixels(size_, GL_DEPTH_COMPONENT, 1);
 }
 
+AddingUp::AddingUp() {
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ONE);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_ALWAYS);
+}
+AddingUp::~AddingUp() {
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_DEPTH_TEST);
+}
+
 int maxTargetSize() {
     GLint size = 0, viewport[2] = {0, 0};
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &size);

@@ -32,6 +32,14 @@ private:
     OwnedFramebuffer framebuffer_;
 };
 
+/// As long as it lives, what is drawn is added to what is there, and the depth is the last pass's.
+struct AddingUp {
+    AddingUp();
+    ~AddingUp();
+    AddingUp(const AddingUp&) = delete;
+    AddingUp& operator=(const AddingUp&) = delete;
+};
+
 /// The widest and highest picture the current context can draw into.
 int maxTargetSize();
 
