@@ -1,7 +1,7 @@
 #include "bench/errors.h"
 
 #include "bench/report.h"
-#include "bench/timing.h"
+#include "core/measure/timing.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the figures share: what was asked for, and the lines they print.
 #include "bench/scenes.h"
-#include "bench/timing.h"
+#include "core/measure/timing.h"
 #include "core/render/renderer.h"
 
 #include <nlohmann/json.hpp>

@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 
 #include "core/effects/effect.h"
+#include "core/measure/timing.h"
 #include "physics/world.h"
 
 #include <fmt/format.h>
@@ -68,13 +69,6 @@ private:
     std::FILE* file_;
 };
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 nlohmann::json namesOf(Stages stages) {
     nlohmann::json names = nlohmann::json::array();
     for (const Effect& row : motionEffects())
@@ -120,7 +114,7 @@ void run(const Options& options, const Common& common) {
     const glm::dvec3 p = world.momentum();
     const nlohmann::ordered_json json = {
         {"seconds", world.time_s()}, {"steps", world.steps()}, {"bodies", world.bodies().size()}, {"awake", world.awake()},
-        {"step_ms", median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
+        {"step_ms", step_ms.empty() ? 0 : median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
         {"momentum", {p.x, p.y, p.z}}, {"max_penetration", world.maxPenetration()}, {"removed", world.removed()},
         {"stages", namesOf(called)}, {"counts", asJson(world.counts())}, {"state", world.stateText()}};
     writeText("-", json.dump() + '\n');

@@ -1,5 +1,7 @@
 #include "physics/ledger.h"
 
+#include "core/measure/timing.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -12,18 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 double msSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-double timeOfStep(PhysicsWorld& io_world) {
-    const Clock::time_point start = Clock::now();
-    io_world.step();
-    return msSince(start);
-}
-
-/// Of an odd number of values the middle one, of an even number the mean of the middle two.
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
+double timeOfStep(PhysicsWorld& io_world) { return timeOf([&] { io_world.step(); }); }
 
 /// The scene whose bodies are just those that move.
 Scene asTheWorldHasIt(const Scene& scene, const PhysicsWorld& world) {

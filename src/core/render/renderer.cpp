@@ -1,31 +1,12 @@
 #include "core/render/renderer.h"
 
-#include "core/render/strip.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 
 namespace mb {
-namespace {
-
-constexpr std::size_t kMostPrograms = 32;  // alive at once
-constexpr int kPictureAttachments = 2, kChannelAttachments = 8;
-
-bool isTurned(const Tree& tree) {
-    const auto turned = [](const auto& x) { return x.rotation != glm::dmat3(1); };
-    return std::ranges::any_of(tree.leaves, turned) || std::ranges::any_of(tree.branches, turned);
-}
-bool isCarved(const Tree& tree) {
-    return std::ranges::any_of(tree.branches, [](const Branch& b) { return b.op->first_only || b.op->intersects; });
-}
-
-}  // namespace
-
 glm::dvec2 samplePlace(int i, int n) {
     if (n == 1) return {0, 0};
     constexpr double kPlastic = 1.32471795724474602596;
@@ -91,66 +72,6 @@ std::size_t Renderer::countUndecided() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < pixels.size(); i += 4) count += pixels[i] > 0;
     return count;
-}
-
-namespace {
-
-/// Adds what the counters of one pass say (shaders/fragment.glsl).
-void addCounts(const Targets& channels, Counts& c) {
-    const auto sums = [&](int attachment) {
-        std::array<std::uint64_t, 4> sum{};
-        const std::vector<float> texels = channels.read(attachment);
-        for (std::size_t i = 0; i < texels.size(); ++i) sum[i % 4] += static_cast<std::uint64_t>(texels[i]);
-        return sum;
-    };
-    const auto primary = sums(3);
-    c.evaluations.primary += primary[0], c.touched.primary += primary[1], c.evaluations.normal += primary[2], c.touched.normal += primary[3];
-    constexpr std::pair<int, std::uint64_t Counts::ByKind::*> kRays[] = {{4, &Counts::ByKind::shadow}, {5, &Counts::ByKind::reflection},
-                                                                        {6, &Counts::ByKind::soft}, {7, &Counts::ByKind::occlusion}};
-    for (const auto& [attachment, kind] : kRays) {
-        const auto ray = sums(attachment);
-        c.evaluations.*kind += ray[0], c.touched.*kind += ray[1], c.rays.*kind += ray[2], c.undecided_rays.*kind += ray[3];
-    }
-    const glm::ivec2 size = channels.size();
-    c.rays.primary += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::vector<float> ray = channels.read(2);
-    for (std::size_t i = 3; i < ray.size(); i += 4) c.uses += static_cast<std::uint64_t>(ray[i]);
-}
-
-}  // namespace
-
-std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted) {
-    Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
-    if (!ready.program) return ready.why;
-    if (counted) ready.frame.counted.x = static_cast<int>(numberOf(*counted));
-    channels_ = Targets(size, kChannelAttachments);
-    out = {};
-    const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-
-    // The counters of every pass that a picture takes.
-    eachPass(scene, ready.frame, [&] {
-        channels_.clear();
-        quad_.draw();
-        addCounts(channels_, out.counts);
-    });
-
-    // The channels of the pixels' centres.
-    GpuFrame centre = ready.frame;
-    centre.pass = {0, 0, 1, centre.pass.w};
-    bindFrame(centre);
-    channels_.clear();
-    quad_.draw();
-    const std::vector<float> surface = channels_.read(1), ray = channels_.read(2);
-    Channels& c = out.channels;
-    c.size = size;
-    c.depth.resize(pixels), c.normal.resize(pixels), c.object.resize(pixels), c.steps.resize(pixels), c.state.resize(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        c.normal[i] = {surface[4 * i], surface[4 * i + 1], surface[4 * i + 2]};
-        c.depth[i] = surface[4 * i + 3];
-        c.object[i] = ray[4 * i], c.steps[i] = ray[4 * i + 1], c.state[i] = ray[4 * i + 2];
-        out.counts.pixels.hit += c.state[i] == 1, out.counts.pixels.miss += c.state[i] == 0, out.counts.pixels.undecided += c.state[i] == 2;
-    }
-    return {};
 }
 
 std::string Renderer::evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out) {
@@ -227,70 +148,6 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     return ready;
 }
 
-bool Renderer::usesGrid(const Tree& tree) const {
-    const auto grid = numberOf(effectNamed("grid"));
-    if (evaluation_ == Evaluation::straight || choice_.off[grid]) return false;
-    return evaluation_ == Evaluation::grid || tree.leaves.size() > kStraightLeaves;
-}
-
-Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const {
-    const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !grid || isTurned(tree),
-                      isCarved(tree)};
-    Texts texts = library_;
-    if (variant != Variant::develop) texts["scene.glsl"] = grid ? gridGlsl(tree, choice_.on) : sceneGlsl(tree);
-    putEffects(texts, plan);
-    const std::string_view story = variant == Variant::evaluate ? "evaluate.glsl" : variant == Variant::develop ? "develop.glsl" : "fragment.glsl";
-    Composed whole = resolve(texts, story, head(plan, sizes, variant == Variant::counted, grid));
-    if (const auto known = std::ranges::find(stripped_, whole.text, &Stripped::from); known != stripped_.end()) {
-        stripped_.splice(stripped_.begin(), stripped_, known);
-    } else {
-        Composed to = stripped(whole);
-        stripped_.push_front({std::move(whole.text), std::move(to)});
-        if (stripped_.size() > kMostPrograms) stripped_.pop_back();
-    }
-    return stripped_.front().to;
-}
-
-std::string Renderer::textOf(const Scene& scene) const {
-    const Tree tree = makeTree(scene);
-    return compose(Variant::plain, tree, makePlan(scene, tree, choice_), pack(scene, tree, {}), usesGrid(tree)).text;
-}
-
-const Program* Renderer::program(Variant variant, const Composed& composed, bool grid, std::string& why) {
-    keepCompiled();
-    const auto known = std::ranges::find(programs_, composed.text, &Cached::text);
-    if (known != programs_.end()) {
-        programs_.splice(programs_.begin(), programs_, known);
-    } else if (compiler_ && (variant == Variant::plain || variant == Variant::counted)) {
-        const bool adds = variant == Variant::plain;
-        compiler_->want({composed, adds ? kPictureAttachments : kChannelAttachments, adds, grid});
-        awaited_ = composed.text;
-        return nullptr;
-    } else {
-        keep(composed.text, makeProgram(composed));
-    }
-    const Program& program = programs_.front().program;
-    if (program.usable()) return &program;
-    why = "the shader does not compile:\n" + program.log;
-    return nullptr;
-}
-
-void Renderer::keep(std::string text, Program program) {
-    if (programs_.size() >= kMostPrograms - (compiler_ ? Compiler::kHeld : 0)) programs_.pop_back();
-    programs_.push_front({std::move(text), std::move(program)});
-    ++compiled_;
-}
-
-void Renderer::keepCompiled() {
-    if (!compiler_) return;
-    if (auto done = compiler_->take()) keep(std::move(done->text), std::move(done->program));
-}
-
-bool Renderer::compiling() {
-    keepCompiled();
-    return putOff() && std::ranges::find(programs_, awaited_, &Cached::text) == programs_.end();
-}
-
 std::string Renderer::upload(const Ready& ready) {
     // Of several renderers in one context, the one that draws has its own blocks bound.
     for (GLuint point = 0; point < static_cast<GLuint>(BlockPoint::count); ++point)
@@ -318,22 +175,6 @@ std::string Renderer::upload(const Ready& ready) {
 void Renderer::bindFrame(const GpuFrame& frame) {
     glBindBuffer(GL_UNIFORM_BUFFER, blocks_[static_cast<std::size_t>(BlockPoint::frame)]);
     glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
-}
-
-/// Calls `pass` for every sample of a pixel and every turn of lights, the frame's block set for it.
-template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F pass) {
-    const int samples = scene.render.samples;
-    for (int i = 0; i < samples; ++i) {
-        const glm::dvec2 place = samplePlace(i, samples);
-        frame.picture.z = static_cast<float>(place.x), frame.picture.w = static_cast<float>(place.y);
-        for (const LightPass& lights : plan_.passes) {
-            const bool first = lights.first == 0;
-            frame.background.w = first ? 1.0f : 0.0f;
-            frame.pass = {lights.first, lights.last, first, frame.pass.w};
-            bindFrame(frame);
-            pass();
-        }
-    }
 }
 
 }  // namespace mb

@@ -150,8 +150,27 @@ private:
     Program present_;
 };
 
+/// The attachments of the picture, and of the channels (shaders/fragment.glsl).
+inline constexpr int kPictureAttachments = 2, kChannelAttachments = 8;
+
 /// The place of sample i of n in its pixel, from the pixel's centre, in (−½, ½): the R2 sequence (Roberts, "The Unreasonable
 /// Effectiveness of Quasirandom Sequences", 2018); one sample lies at the centre.
 glm::dvec2 samplePlace(int i, int n);
+
+/// Calls `pass` for every sample of a pixel and every turn of lights, the frame's block set for it.
+template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F pass) {
+    const int samples = scene.render.samples;
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec2 place = samplePlace(i, samples);
+        frame.picture.z = static_cast<float>(place.x), frame.picture.w = static_cast<float>(place.y);
+        for (const LightPass& lights : plan_.passes) {
+            const bool first = lights.first == 0;
+            frame.background.w = first ? 1.0f : 0.0f;
+            frame.pass = {lights.first, lights.last, first, frame.pass.w};
+            bindFrame(frame);
+            pass();
+        }
+    }
+}
 
 }  // namespace mb

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace mb::bench {
+namespace mb {
 
 /// Of an odd number of values the middle one, of an even number the mean of the middle two. The one reading of medians.
 double median(std::vector<double> values);
@@ -31,4 +31,4 @@ Spread ratio(const std::vector<double>& a, const std::vector<double>& b);
 /// How long a call takes, in ms.
 double timeOf(const std::function<void()>& call);
 
-}  // namespace mb::bench
+}  // namespace mb

@@ -1,4 +1,4 @@
-#include "bench/timing.h"
+#include "core/measure/timing.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include <sys/times.h>
 #include <unistd.h>
 
-namespace mb::bench {
+namespace mb {
 namespace {
 
 /// Seconds since some start: of all cores' work, of this program's with the programs it ran, and of the clock.
@@ -70,4 +70,4 @@ double timeOf(const std::function<void()>& call) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - from).count();
 }
 
-}  // namespace mb::bench
+}  // namespace mb
