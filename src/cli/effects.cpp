@@ -1,8 +1,8 @@
-// marchbox effects: what a scene calls for, why, and what it costs.
+// marchbox effects: what a scene calls for, why, what it costs and what it shows.
 #include "cli/cli.h"
 
-#include "core/effects/plan.h"
-#include "core/render/renderer.h"
+#include "core/render/ledger.h"
+#include "physics/ledger.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,66 +10,142 @@
 namespace mb::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Options {
-    std::string scene;
+    std::string scene, size = "640x360";
     std::vector<std::string> settings;
-    bool json = false;
+    int rounds = 5;
+    bool json = false, objects = false, glsl = false;
 };
 
-/// The evaluations of the scene's distance that a 640x360 picture takes, by what asked for them.
-Counts countsOf(const Scene& scene) {
-    const auto context = headlessContext();
-    Renderer renderer;
-    Measured measured;
-    if (const std::string why = renderer.measure(scene, defaultCamera(scene), {640, 360}, measured); !why.empty())
-        throw Failure{kInputFault, why};
-    return measured.counts;
+Json toJson(const Price& p) {
+    Json json;
+    if (p.measured)
+        json = {{"evaluations", p.evaluations}, {"ms", p.ms}, {"ms_least", p.ms_least}, {"ms_most", p.ms_most}, {"mean", p.mean}, {"largest", p.largest}};
+    if (!p.note.empty()) json["note"] = p.note;
+    return json;
+}
+Json toJson(const Scene& scene, const std::vector<Because>& because) {
+    Json by = Json::array();
+    for (const Because& b : because) by.push_back(describe(scene, b));
+    return by;
+}
+
+std::string namesOf(const Scene& scene, const std::vector<Because>& because) {
+    std::string text;
+    for (const Because& b : because) text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(scene, b));
+    return text;
+}
+std::string columns(const Price& p, double pixels) {
+    if (!p.measured) return fmt::format("{:>9} {:>19} {:>9} {:>9} {:>8}", "", "", "", "", "");
+    return fmt::format("{:>9.2f} {:>19} {:>9.2f} {:>9.5f} {:>8.3f}", p.ms, fmt::format("[{:.2f}, {:.2f}]", p.ms_least, p.ms_most),
+                       static_cast<double>(p.evaluations) / pixels, p.mean, p.largest);
+}
+constexpr std::string_view kPriceHeads = "       ms       [least, most]  evals/px      mean  largest";
+
+struct Ledgers {
+    PictureLedger picture;
+    MotionLedger motion;
+    bool moves;
+};
+Ledgers fill(const Scene& scene, glm::ivec2 size, const Options& options, Renderer& renderer, const Common& common) {
+    const bool moves = PhysicsWorld(scene).stages().has(Stage::flight);
+    Ledgers all{{scene, defaultCamera(scene), {size, options.rounds, 8, true, options.objects}}, {scene, {120, options.rounds}}, moves};
+    constexpr std::uint64_t kParts = 1000;
+    Progress progress("pricing", kParts, common);
+    while (all.picture.step(renderer)) progress.show(static_cast<std::uint64_t>(static_cast<double>(kParts) * all.picture.progress()));
+    while (moves && all.motion.step()) progress.show(static_cast<std::uint64_t>(static_cast<double>(kParts) * all.motion.progress()));
+    return all;
+}
+
+Json asJson(const Scene& scene, const Ledgers& all, const Counts& counts, glm::ivec2 size) {
+    Json json;
+    json["width"] = size.x, json["height"] = size.y;
+    const auto& e = counts.evaluations;
+    json["evaluations"] = {{"primary", e.primary}, {"normal", e.normal}, {"shadow", e.shadow}, {"reflection", e.reflection}, {"soft", e.soft}, {"occlusion", e.occlusion}};
+    json["effects"] = Json::array();
+    for (const EffectPrice& row : all.picture.effects()) {
+        Json line = {{"name", row.effect->name}, {"what", row.effect->tip}, {"called", row.called}, {"by", toJson(scene, row.because)}};
+        if (!row.effect->counts.empty()) line["uses"] = row.uses, line["counts"] = row.effect->counts;
+        line["price"] = toJson(row.price);
+        json["effects"].push_back(std::move(line));
+    }
+    json["stages"] = Json::array();
+    for (const StagePrice& row : all.motion.rows()) {
+        Json line = {{"name", row.effect->name}, {"what", row.effect->tip}, {"called", row.called}, {"by", toJson(scene, row.because)}};
+        if (all.moves) line["uses_per_step"] = row.uses_per_step, line["price"] = {{"ms_per_step", row.ms_per_step}, {"ms_least", row.ms_least}, {"ms_most", row.ms_most}, {"moved_m", row.moved_m}, {"lost", row.lost}};
+        json["stages"].push_back(std::move(line));
+    }
+    if (all.picture.records().empty()) return json;
+    json["records"] = Json::array();
+    for (const RecordPrice& row : all.picture.records())
+        json["records"].push_back({{"name", describe(scene, row.record)}, {"seen", row.seen()}, {"price", toJson(row.price)}});
+    return json;
+}
+
+std::string pictureTable(const Scene& scene, const Ledgers& all, double pixels) {
+    std::string called, left;
+    for (const EffectPrice& row : all.picture.effects()) {
+        const std::string why = row.called ? namesOf(scene, row.because) : std::string(row.effect->tip);
+        (row.called ? called : left) += fmt::format("{:<18}{}  {}{}{}\n", row.effect->name, columns(row.price, pixels), row.price.note, row.price.note.empty() ? "" : "; ", why);
+    }
+    std::string text = fmt::format("CALLED FOR: what it costs a frame and changes in it, the dearest for what it shows first\n{:<18}{}  by\n{}", "effect", kPriceHeads, called);
+    return text + fmt::format("\nLEFT OUT: what its code would cost in the program\n{:<18}{}  what it does\n{}", "effect", kPriceHeads, left);
+}
+std::string recordTable(const Scene& scene, const Ledgers& all, double pixels) {
+    std::string text = fmt::format("\nOBJECTS AND LIGHTS: the picture with each less without it, what is never seen first\n{:<30}{}\n", "record", kPriceHeads);
+    for (const RecordPrice& row : all.picture.records()) {
+        const std::string note = !row.price.note.empty() ? row.price.note : row.seen() ? "" : "never seen";
+        text += fmt::format("{:<30}{}  {}\n", describe(scene, row.record), columns(row.price, pixels), note);
+    }
+    return text;
+}
+std::string motionTable(const Scene& scene, const Ledgers& all) {
+    std::string text = fmt::format("\nTHE PHYSICS: what a stage costs a step\n{:<18}{:>12}{:>12} {:>22}{:>12}  by\n", "stage", "uses/step", "ms/step", "[least, most]", "moves, m");
+    for (const StagePrice& row : all.motion.rows())
+        text += fmt::format("{:<18}{:>12.2f}{:>12.5f} {:>22}{:>12.4g}  {}\n", row.effect->name, row.uses_per_step, row.ms_per_step,
+                            fmt::format("[{:.5f}, {:.5f}]", row.ms_least, row.ms_most), row.moved_m,
+                            row.called ? namesOf(scene, row.because) : fmt::format("left out: {}", row.effect->tip));
+    return text;
 }
 
 void run(const Options& options, const Common& common) {
     const Scene scene = readSceneFile(options.scene, options.settings, common);
-    const Plan plan = makePlan(scene, treeOf(scene));
-    const auto evaluations = countsOf(scene).evaluations;
-    const auto cost = [&](std::string_view effect) -> std::uint64_t {
-        return effect == "shadow" ? evaluations.shadow : effect == "reflection" ? evaluations.reflection : 0;
-    };
+    treeOf(scene);
+    const glm::ivec2 size = parseSize(options.size);
+    const auto context = headlessContext();
+    checkSize(size);
+    Renderer renderer;
+    if (options.glsl) return writeText("-", renderer.textOf(scene));
 
-    nlohmann::ordered_json json;
-    json["evaluations"] = {{"primary", evaluations.primary}, {"normal", evaluations.normal}, {"shadow", evaluations.shadow},
-                           {"reflection", evaluations.reflection}};
-    json["effects"] = nlohmann::ordered_json::array();
-    for (const Effect& effect : effects()) {
-        std::string by;
-        for (const Plan::Called& c : plan.called)
-            if (c.effect == &effect) by = c.by;
-        json["effects"].push_back({{"name", effect.name}, {"called", !by.empty()}, {"by", by}, {"evaluations", cost(effect.name)},
-                                   {"what", effect.tip}});
-    }
-    if (options.json) return writeText("-", json.dump() + '\n');
-
-    const double pixels = 640.0 * 360.0;
-    std::string table = fmt::format("{:<12}{:<8}{:>16}  {}\n", "effect", "called", "evaluations/px", "by, or what it would do");
-    for (const auto& e : json["effects"]) {
-        const bool called = e["called"];
-        table += fmt::format("{:<12}{:<8}{:>16}  {}\n", e["name"].get<std::string>(), called ? "yes" : "no",
-                             e["evaluations"] == 0 ? "" : fmt::format("{:.2f}", e["evaluations"].get<double>() / pixels),
-                             e[called ? "by" : "what"].get<std::string>());
-    }
-    table += fmt::format("{:<20}{:>16.2f}  the picture's own rays\n", "primary", static_cast<double>(evaluations.primary) / pixels);
-    table += fmt::format("{:<20}{:>16.2f}  and look-ups of what was hit\n", "normals", static_cast<double>(evaluations.normal) / pixels);
-    writeText("-", table);
+    Measured measured;
+    if (const std::string why = renderer.measure(scene, defaultCamera(scene), size, measured); !why.empty()) throw Failure{kInputFault, why};
+    const Ledgers all = fill(scene, size, options, renderer, common);
+    if (options.json) return writeText("-", asJson(scene, all, measured.counts, size).dump() + '\n');
+    const double pixels = static_cast<double>(size.x) * size.y;
+    std::string text = fmt::format("{}: {}x{}, {:.2f} evaluations of the scene's distance a pixel, drawn by {}\n\n", options.scene, size.x, size.y,
+                                   static_cast<double>(measured.counts.evaluations.total()) / pixels, renderer.rendererName());
+    text += pictureTable(scene, all, pixels);
+    text += all.moves ? motionTable(scene, all) : "\nTHE PHYSICS: no body, no step\n";
+    if (options.objects) text += recordTable(scene, all, pixels);
+    writeText("-", text);
 }
 
 std::function<void()> make(CLI::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
-    app.add_option("SCENE", options->scene, "scene file")->required();
-    app.add_flag("--json", options->json, "print JSON");
-    addSettings(app, options->settings);
-    return [options, &common] { run(*options, common); };
+    const auto o = std::make_shared<Options>();
+    app.add_option("SCENE", o->scene, "scene file")->required();
+    app.add_option("--size", o->size, "WxH pixels of the picture that is priced")->capture_default_str();
+    app.add_option("--rounds", o->rounds, "turns each comparison takes")->capture_default_str()->check(within(1, 1000));
+    app.add_flag("--objects", o->objects, "price each object and light too");
+    app.add_flag("--json", o->json, "print JSON");
+    app.add_flag("--glsl", o->glsl, "print the text of the scene's shader instead: what was called for and nothing else");
+    addSettings(app, o->settings);
+    return [o, &common] { run(*o, common); };
 }
 
 }  // namespace
 
-const Command kEffects{"effects", "what a scene calls for, why, and what it costs", "marchbox effects saves/mirrors.txt", make};
+const Command kEffects{"effects", "what a scene calls for, why, what it costs and what it shows", "marchbox effects saves/mirrors.txt --objects", make};
 
 }  // namespace mb::cli

@@ -63,6 +63,8 @@ public:
     void setEvaluation(Evaluation evaluation) { evaluation_ = evaluation; }
     /// What the programs hold against the scenes' own word, from now on.
     void choose(const Choice& choice) { choice_ = choice; }
+    const Choice& choice() const { return choice_; }
+    Evaluation evaluation() const { return evaluation_; }
     /// Another shader library than the program's own: a test's.
     void setLibrary(Texts texts) { library_ = std::move(texts); }
 
