@@ -11,7 +11,8 @@ namespace mb {
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
                std::span<const Motion> accelerations, StepCounts& io_counts)
     : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), paths_(bodies.size()) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin;
     if (!has(Stage::continuous)) return;
     motion_.resize(bodies.size());
     neighbours_.resize(bodies.size());

@@ -1,5 +1,6 @@
 #pragma once
-// What each stage of the physics costs and does, in a scene: the world with it against the same world without it.
+// What each stage of the physics costs and does, in a scene: the world with it against the same world without it. The bodies
+// then go other ways, and what that costs or saves is in the price too: prices do not add up to a step, and may be negative.
 #include "core/effects/effect.h"
 #include "physics/world.h"
 

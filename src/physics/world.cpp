@@ -38,9 +38,10 @@ void PhysicsWorld::step() {
 double PhysicsWorld::bounceSpeed(double h) const { return 2 * std::fabs(world_.gravity) * h; }
 
 void PhysicsWorld::part(double h) {
-    // Sleepers lie still, and only what is awake, or what is done to the world between steps, wakes them.
+    // Sleepers lie still, and only what is awake, or what is done to the world between steps, wakes them. No impulse is kept
+    // of one.
     if (choice_.proofs && awake() == 0) {
-        kept_.clear(), contacts_ = 0;
+        contacts_ = 0;
         return;
     }
     tame();

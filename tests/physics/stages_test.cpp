@@ -127,6 +127,23 @@ TEST_CASE("a composed step does what the general one does: in random small scene
     MESSAGE("searches along a path: ", composed, " of ", general);
 }
 
+TEST_CASE("a composed step does what the general one does: among solids that are found through a grid") {
+    Scene s = scene(1.0 / 120, 0.6, 0.3);
+    Random random(5);
+    for (int i = 0; i < 64; ++i) {
+        const double high = random.in(0.2, 1), wide = random.in(0.3, 0.8);
+        add(s, i % 3 ? "box" : "ellipsoid", {i % 8 - 3.5, 0, i / 8 - 3.5}, {wide, high, wide});
+    }
+    for (int i = 0; i < 30; ++i) {
+        const glm::dvec3 at{random.in(-3, 3), random.in(1, 6), random.in(-3, 3)}, vel{random.in(-3, 3), 0, random.in(-3, 3)};
+        ball(s, at, random.in(0.05, 0.2), vel);
+    }
+    Twins twins(s);
+    CHECK(twins.firstDifference(240) == -1);
+    CHECK(twins.composed.counts().evaluations < twins.general.counts().evaluations);
+    MESSAGE("evaluations of the field: ", twins.composed.counts().evaluations, " of ", twins.general.counts().evaluations);
+}
+
 TEST_CASE("a composed step does what the general one does: each pair of switches in each way") {
     // Columns of the orthogonal array OA(8, 2⁷): the parities of the row's bits under each mask.
     const auto level = [](unsigned row, unsigned factor) { return std::popcount(row & (factor + 1)) % 2 == 1; };
