@@ -1,8 +1,9 @@
 #pragma once
 // The interface: one table of panels and commands, which the menus, the windows, the keys and the list of controls walk.
 // Everything here needs Dear ImGui and no window.
-#include "core/effects/plan.h"
+#include "core/render/ledger.h"
 #include "gui/editor.h"
+#include "physics/ledger.h"
 
 #include <imgui.h>
 
@@ -26,6 +27,8 @@ struct PictureState {
     const Grid* grid = nullptr;    // it was drawn through that; null: through none
     bool count_wanted = false;     // asked for by a panel; the viewport answers in `counts`
     std::string counts;
+    std::optional<PictureLedger> ledger;  // asked for by a panel; the viewport fills it whenever the picture is at rest
+    bool pricing = false;                 // it is not full yet
 };
 
 /// A key that went down, with what was held beside it.
@@ -65,6 +68,11 @@ struct Ui {
     std::string save_name;             // typed into that question
     std::uint64_t planned_revision = 0;
     Plan plan;
+    std::uint64_t called_revision = 0;
+    std::vector<EffectPrice> called;   // of the scene as it is, unpriced: who calls for what
+    std::optional<MotionLedger> motion_ledger;
+    bool pricing_motion = false;       // it is not full yet
+    std::uint64_t priced_revision = 0; // that both ledgers are of
     double message_until = kForever;   // ImGui's time when it goes by itself
     std::string message_shown;
 
@@ -121,6 +129,7 @@ void drawControls(Ui& ui);
 void drawDebug(Ui& ui);
 void drawConstants(Ui& ui);
 void drawPicture(Ui& ui);
+void drawEffects(Ui& ui);
 // What surrounds them (bars.cpp, question.cpp).
 void drawMenuBar(Ui& ui);
 void drawStatusBar(Ui& ui);

@@ -72,6 +72,7 @@ void Viewport::showKept() {
 
 /// Draws into the renderer's picture and measures; says whether it could.
 bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+    priced_ = false;
     const double start = nowMs();
     why_ = renderer_->draw(scene, camera, size);
     put_off_ = renderer_->putOff();
@@ -138,6 +139,16 @@ void Viewport::count(const Scene& scene, const Camera& camera, PictureState& sta
                                size.x * size.y, c.undecided_rays.shadow, c.rays.shadow, c.undecided_rays.reflection, c.rays.reflection);
 }
 
+/// As much of the ledger as a frame has time for, while the picture is at rest.
+void Viewport::fillLedger(PictureState& state) {
+    if (!state.pricing || !state.ledger || !refined_ || put_off_) return;
+    const double start = nowMs();
+    priced_ = true;
+    do state.pricing = state.ledger->step(*renderer_);
+    while (state.pricing && !renderer_->putOff() && nowMs() - start < kFrameMs / 2);
+    showKept();
+}
+
 void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state) {
     state.renderer = renderer_->rendererName();
     busy_ = false;
@@ -170,11 +181,12 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
         drawTile(editor.scene(), editor.camera());
     }
     const bool last_stays = !why_.empty() || put_off_;
-    if (last_stays && moved) renderer_->present(corner_, size_), keepShown(corner_, size_);
+    if (last_stays && moved && !priced_) renderer_->present(corner_, size_), keepShown(corner_, size_);
     else if (last_stays) showKept();
     if (state.count_wanted) count(editor.scene(), editor.camera(), state);
+    fillLedger(state);
     state.compiling = put_off_ || state.count_wanted;
-    busy_ = !refined_ || state.compiling;
+    busy_ = !refined_ || state.compiling || state.pricing;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.grid = renderer_->grid();
     state.refining = !refined_ && next_row_ > 0;

@@ -83,6 +83,7 @@ struct Item {
 
 /// The name that a declaration of the file's level gives; nothing where it has several or none, so that it stays.
 std::string_view declaredName(std::string_view head) {
+    if (const auto definition = behind(head, "#define ")) return wordAt(*definition, 0);
     if (head.starts_with('#') || head.starts_with("layout") || head.starts_with("uniform") || head.starts_with("precision")) return {};
     const std::size_t end = head.starts_with("struct ") ? head.find('{') : head.find_first_of("(=;[{");
     if (end == head.npos || end == 0) return {};

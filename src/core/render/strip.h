@@ -1,6 +1,6 @@
 #pragma once
 // A shader's text with only what its main() uses: what stands behind switches that are not set is left out, and so is every
-// function, structure and variable that nothing left in the text names.
+// definition, function, structure and variable that nothing left in the text names.
 #include "core/render/compose.h"
 
 namespace mb {
