@@ -11,6 +11,7 @@ namespace mb {
 namespace {
 
 constexpr int kSmallestSide = 48;  // pixels of a preview
+constexpr double kTrialMs = 1500;  // without a change for so long, the program is tried
 constexpr int kWidestStep = 8;     // a preview has at least an eighth of the full width
 
 double nowMs() {
@@ -149,6 +150,22 @@ void Viewport::fillLedger(PictureState& state) {
     showKept();
 }
 
+/// Each program is tried against the general one once, when nothing else is to be done, and dropped if it is the slower one.
+void Viewport::tryProgram(const Scene& scene, const Camera& camera) {
+    constexpr glm::ivec2 kTrialSize{160, 90};
+    constexpr int kTrialRounds = 5;
+    if (!trial_) {
+        if (!why_.empty() || !tried_.insert(renderer_->textOf(scene)).second) return;
+        trial_ = ownAgainstGeneral(scene, camera, kTrialSize, kTrialRounds, false);
+    }
+    priced_ = true;
+    if (!trial_->step(*renderer_)) {
+        if (ownIsSlower(trial_->price())) renderer_->preferGeneral(scene);
+        trial_.reset();
+    }
+    showKept();
+}
+
 void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, glm::ivec2 size, PictureState& state) {
     state.renderer = renderer_->rendererName();
     busy_ = false;
@@ -185,8 +202,11 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     else if (last_stays) showKept();
     if (state.count_wanted) count(editor.scene(), editor.camera(), state);
     fillLedger(state);
+    if (changed) trial_.reset();
+    if (refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(editor.scene(), editor.camera());
     state.compiling = put_off_ || state.count_wanted;
-    busy_ = !refined_ || state.compiling || state.pricing;
+    const bool tries = trial_ || (refined_ && why_.empty() && now - changed_at_ <= kTrialMs);
+    busy_ = !refined_ || state.compiling || state.pricing || tries;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.grid = renderer_->grid();
     state.refining = !refined_ && next_row_ > 0;

@@ -28,6 +28,7 @@ private:
     void drawPreview(const Scene& scene, const Camera& camera);
     void drawTile(const Scene& scene, const Camera& camera);
     void fillLedger(PictureState& state);
+    void tryProgram(const Scene& scene, const Camera& camera);
     void count(const Scene& scene, const Camera& camera, PictureState& state);
     bool draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
     void keepShown(glm::ivec2 corner, glm::ivec2 size);
@@ -45,6 +46,8 @@ private:
     int next_row_ = 0;                 // of the refinement, in pixels from the bottom
     int compiled_ = 0;                 // programs there were when a picture was last drawn
     bool busy_ = true, refined_ = false, begun_ = false;
+    std::optional<Pricing> trial_;     // of the scene's own program against the general one
+    std::set<std::string> tried_;      // texts of programs that had theirs
     bool priced_ = false;              // the renderer's picture is the ledger's, not the one shown
     bool put_off_ = false;             // the picture wanted waits for its program; the last one is shown
     double ms_ = 0, refining_ms_ = 0, shown_ms_ = 0;  // of the last draw, of the rows so far, of the picture shown

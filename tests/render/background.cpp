@@ -161,7 +161,7 @@ TEST_CASE("at most 32 programs are alive, and the one dropped is compiled again"
     for (const bool behind : {false, true}) {
         Background background;
         Renderer renderer(behind ? std::move(background.compiler) : nullptr);
-        Scene scene;
+        Scene scene = spheres(1);
         std::size_t most = 0;
         for (int lights = 1; lights <= 36; ++lights) {
             scene.lights.push_back({.name = "", .pos = {4, 8, 5}});

@@ -2,6 +2,8 @@
 #include "headless.h"
 #include "scenes.h"
 
+#include "core/render/ledger.h"
+
 #include <fmt/format.h>
 
 #include <cstring>
@@ -214,4 +216,60 @@ TEST_CASE("a change of any row's GLSL that shows uncalled for breaks the equalit
     }
     for (const Effect& effect : effects())
         if (!effect.at.empty()) CHECK_MESSAGE(std::ranges::find(kMutants, effect.name, &Mutant::row) != std::end(kMutants), effect.name);
+}
+
+TEST_CASE("a program that measured slower than the general one is dropped for it, and the picture stays") {
+    const auto saved = [](double ms, double least, double most) {
+        Price price;
+        price.measured = true, price.ms = ms, price.ms_least = least, price.ms_most = most, price.frame_ms = 10;
+        return price;
+    };
+    CHECK(ownIsSlower(saved(-1, -2, -0.5)));
+    CHECK(!ownIsSlower(saved(-1, -2, 0.5)));       // not in every round
+    CHECK(!ownIsSlower(saved(-0.1, -0.2, -0.05))); // by less than a fiftieth
+    CHECK(!ownIsSlower(saved(1, 0.5, 2)));
+    CHECK(!ownIsSlower(Price{}));
+
+    HeadlessRenderer headless;
+    Renderer& renderer = *headless.renderer;
+    const Scene scene = sceneOf(Setting().set(switchOf("light")));
+    const auto own = drawn(renderer, scene, {});
+    CHECK(!renderer.plan().has("fog"));
+    renderer.preferGeneral(scene);
+    const auto general = drawn(renderer, scene, {});
+    CHECK(renderer.plan().has("fog"));
+    CHECK(differing(own, general) == 0);
+    drawn(renderer, sceneOf(Setting().set(switchOf("fog"))), {});
+    CHECK(!renderer.plan().has("light"));  // another scene keeps its own
+}
+
+TEST_CASE("the ledger prices what is called for, says what was left out, and puts first what costs and is never seen") {
+    HeadlessRenderer headless;
+    Scene scene = sceneOf(Setting().set(switchOf("light")).set(switchOf("hard shadow")));
+    addObject(scene, "sphere", {0.3}, {0, 0.5, -300});  // beyond what can be seen
+    scene.objects.back().name = "unseen";
+    PictureLedger ledger(scene, kCamera, {kSize, 1, 8, true, true});
+    double before = 0;
+    while (ledger.step(*headless.renderer)) {
+        CHECK(ledger.progress() >= before);
+        before = ledger.progress();
+    }
+    CHECK(ledger.progress() == 1);
+    CHECK(ledger.effects().size() + motionEffects().size() == effects().size());
+    for (const EffectPrice& row : ledger.effects()) {
+        CAPTURE(row.effect->name);
+        CHECK((row.price.measured || !row.price.note.empty()));
+        CHECK(row.called == !row.because.empty());
+        const bool seen = row.called && row.effect->name != "subtract";
+        if (!row.called && row.effect->name != "grid") CHECK(row.price.largest == 0);  // code that is there changes nothing
+        if (seen) CHECK(row.price.largest > 0);
+        if (row.effect->name == "hard shadow") CHECK(row.price.evaluations > 0);
+        if (row.effect->name == "hard shadow") CHECK(describe(scene, row.because[0]) == "light 'point' (size:0, shadow_steps:256)");
+    }
+    const auto unseen = std::ranges::find_if(ledger.records(), [&](const RecordPrice& r) { return describe(scene, r.record).find("unseen") != std::string::npos; });
+    REQUIRE(unseen != ledger.records().end());
+    CHECK(!unseen->seen());
+    const auto seen = std::ranges::find_if(ledger.records(), &RecordPrice::seen);
+    CHECK(seen - ledger.records().begin() == std::ranges::count_if(ledger.records(), [](const RecordPrice& r) { return !r.seen(); }));
+    CHECK(std::ranges::any_of(ledger.records(), [](const RecordPrice& r) { return r.record.record == Because::Record::light && r.seen(); }));
 }

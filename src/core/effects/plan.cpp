@@ -48,8 +48,12 @@ std::string notFinite(const Scene& scene, const Tree& tree) {
     return {};
 }
 
+/// Whether it is in the program and the scene calls for it: what is there by choice alone sends no rays.
+bool sendsRays(const Plan& plan, std::string_view effect) {
+    return std::ranges::any_of(plan.called, [&](const Plan::Called& c) { return c.effect->name == effect && !c.by.empty(); });
+}
 std::int64_t raysOf(const Plan& plan, const Scene& scene, std::string_view effect) {
-    return plan.has(effect) ? static_cast<std::int64_t>(scene.render.extra[slotOf(effectNamed(effect).keys.back())]) : 0;
+    return sendsRays(plan, effect) ? static_cast<std::int64_t>(scene.render.extra[slotOf(effectNamed(effect).keys.back())]) : 0;
 }
 
 }  // namespace
@@ -76,7 +80,7 @@ Plan makePlan(const Scene& scene, const Tree& tree, const Choice& choice) {
 
     // As many lights a pass as the loop budget holds.
     if (plan.has("reflection")) plan.bounces = bouncesOf(scene, tree);
-    const bool hard = plan.has("hard shadow");
+    const bool hard = sendsRays(plan, "hard shadow");
     const Loops loops{scene.render, plan.bounces + 1, hard ? 1 : 0, raysOf(plan, scene, "soft shadow"), raysOf(plan, scene, "ambient occlusion")};
     const int lights = plan.has("light") ? static_cast<int>(scene.lights.size()) : 0;
     int batch = lights;

@@ -34,7 +34,7 @@ PictureLedger::PictureLedger(Scene scene, const Camera& camera, const Plan& plan
 }
 
 double PictureLedger::progress() const {
-    const double all = static_cast<double>(effects_.size() + records_.size());
+    const double all = static_cast<double>(firstRecord() + records_.size());
     return all > 0 ? (static_cast<double>(at_) + (pricing_ ? pricing_->progress() : 0)) / all : 1;
 }
 
@@ -76,41 +76,37 @@ std::optional<PictureLedger::Sides> PictureLedger::sidesOf(const RecordPrice& ro
 
 /// The next comparison; false where that row has none.
 bool PictureLedger::begin() {
-    const bool is_effect = at_ < effects_.size();
-    std::optional<Sides> sides = is_effect ? sidesOf(effects_[at_]) : sidesOf(records_[at_ - effects_.size()]);
+    if (at_ < firstRow()) {
+        pricing_ = ownAgainstGeneral(scene_, camera_, plan_.size, plan_.rounds, true);
+        return true;
+    }
+    std::optional<Sides> sides = at_ < firstRecord() ? sidesOf(effects_[at_ - firstRow()]) : sidesOf(records_[at_ - firstRecord()]);
     if (sides) pricing_.emplace(std::move(sides->with), std::move(sides->without), camera_, plan_.size, plan_.rounds);
     return sides.has_value();
 }
 
-void PictureLedger::end() {
-    const Price& price = pricing_->price();
-    if (at_ >= effects_.size()) {
-        records_[at_ - effects_.size()].price = price;
-    } else {
-        EffectPrice& row = effects_[at_];
-        row.price = price;
-        constexpr double kWorthKeeping = 0.02;  // of a frame
-        if (!row.called && row.effect->name != "grid" && price.measured && price.ms_most < 0 && -price.ms > kWorthKeeping * price.frame_ms) {
-            kept_in_.set(numberOf(*row.effect));
-            row.price.note = "stays in the program: leaving it out measured slower";
-        }
-    }
+void PictureLedger::end(Renderer& renderer) {
+    const Price price = pricing_->price();
     pricing_.reset();
+    if (at_ < firstRow()) {
+        saved_ = price;
+        if (ownIsSlower(saved_)) renderer.preferGeneral(scene_);
+    } else if (at_ >= firstRecord()) {
+        records_[at_ - firstRecord()].price = price;
+    } else {
+        EffectPrice& row = effects_[at_ - firstRow()];
+        row.price = price;
+        if (!row.called || row.effect->counts.empty()) return;
+        Measured measured;
+        if (renderer.measure(scene_, camera_, plan_.size, measured, row.effect).empty()) row.uses = measured.counts.uses;
+    }
 }
 
 bool PictureLedger::step(Renderer& renderer) {
-    const std::size_t all = effects_.size() + records_.size();
+    const std::size_t all = firstRecord() + records_.size();
     if (at_ >= all) return false;
-    if (!pricing_ && !begin()) {
-        ++at_;
-    } else if (!pricing_->step(renderer)) {
-        end();
-        if (at_ < effects_.size() && effects_[at_].called && !effects_[at_].effect->counts.empty()) {
-            Measured measured;
-            if (renderer.measure(scene_, camera_, plan_.size, measured, effects_[at_].effect).empty()) effects_[at_].uses = measured.counts.uses;
-        }
-        ++at_;
-    }
+    if (!pricing_ && !begin()) ++at_;
+    else if (pricing_ && !pricing_->step(renderer)) end(renderer), ++at_;
     if (at_ == all) sort();
     return at_ < all;
 }

@@ -40,8 +40,8 @@ public:
     /// out, the dearest first; then what has no price.
     const std::vector<EffectPrice>& effects() const { return effects_; }
     const std::vector<RecordPrice>& records() const { return records_; }
-    /// Rows whose leaving out measured slower in every round: they are to stay in the program.
-    EffectSet keptIn() const { return kept_in_; }
+    /// What leaving out saves in all; ownIsSlower() says whether the general program draws the scene from now on.
+    const Price& saved() const { return saved_; }
 
 private:
     struct Sides {
@@ -49,8 +49,10 @@ private:
     };
     std::optional<Sides> sidesOf(EffectPrice& row) const;
     std::optional<Sides> sidesOf(const RecordPrice& row) const;
+    std::size_t firstRow() const { return plan_.effects ? 1 : 0; }
+    std::size_t firstRecord() const { return firstRow() + effects_.size(); }
     bool begin();
-    void end();
+    void end(Renderer& renderer);
     void sort();
 
     Scene scene_;
@@ -58,9 +60,9 @@ private:
     Plan plan_;
     std::vector<EffectPrice> effects_;
     std::vector<RecordPrice> records_;
-    std::size_t at_ = 0;                  // rows first, then records
+    Price saved_;
+    std::size_t at_ = 0;                  // the whole first, where there are rows, then these, then records
     std::optional<Pricing> pricing_;
-    EffectSet kept_in_;
 };
 
 }  // namespace mb

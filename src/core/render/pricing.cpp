@@ -9,8 +9,6 @@
 namespace mb {
 namespace {
 
-constexpr int kBeforeRounds = 4;  // each side shown and counted
-
 /// What follows acts on the renderer under one side's choices.
 class Under {
 public:
@@ -34,22 +32,22 @@ double Price::forEffect() const {
     return sureMs() / std::max(mean, kUnseen);
 }
 
-Pricing::Pricing(Variation with, Variation without, const Camera& camera, glm::ivec2 size, int rounds)
-    : with_{std::move(with), {}, 0, {}}, without_{std::move(without), {}, 0, {}}, camera_(camera), size_(size), rounds_(rounds) {}
+Pricing::Pricing(Variation with, Variation without, const Camera& camera, glm::ivec2 size, int rounds, bool counted)
+    : with_{std::move(with), {}, 0, {}}, without_{std::move(without), {}, 0, {}}, camera_(camera), size_(size), rounds_(rounds), before_(counted ? 4 : 2) {}
 
-double Pricing::progress() const { return static_cast<double>(done_) / (kBeforeRounds + 2 * rounds_); }
+double Pricing::progress() const { return static_cast<double>(done_) / (before_ + 2 * rounds_); }
 
 bool Pricing::step(Renderer& renderer) {
-    const int round = (done_ - kBeforeRounds) / 2;
-    const bool first = done_ % 2 == 0, swapped = done_ >= kBeforeRounds && round % 2 == 1;
+    const int round = (done_ - before_) / 2;
+    const bool first = done_ % 2 == 0, swapped = done_ >= before_ && round % 2 == 1;
     Side& side = first != swapped ? with_ : without_;
     const Under under(renderer, side.variation);
     if (done_ < 2) show(renderer, side);
-    else if (done_ < kBeforeRounds) count(renderer, side);
+    else if (done_ < before_) count(renderer, side);
     else time(renderer, side);
     if (!price_.note.empty()) return false;
     if (renderer.putOff()) return true;
-    if (++done_ < kBeforeRounds + 2 * rounds_) return true;
+    if (++done_ < before_ + 2 * rounds_) return true;
     conclude();
     return false;
 }
@@ -89,6 +87,15 @@ void Pricing::conclude() {
     price_.mean = sum / 255 / static_cast<double>(with_.picture.size());
     price_.largest = largest / 255.0;
     price_.measured = true;
+}
+
+bool ownIsSlower(const Price& saved) {
+    constexpr double kWorthSpeaking = 0.02;  // of a frame
+    return saved.measured && saved.ms_most < 0 && -saved.ms > kWorthSpeaking * saved.frame_ms;
+}
+
+Pricing ownAgainstGeneral(const Scene& scene, const Camera& camera, glm::ivec2 size, int rounds, bool counted) {
+    return {{scene, {everyEffect(), {}}}, {scene}, camera, size, rounds, counted};
 }
 
 }  // namespace mb

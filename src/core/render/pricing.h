@@ -29,7 +29,8 @@ struct Price {
 /// within a round are figures.
 class Pricing {
 public:
-    Pricing(Variation with, Variation without, const Camera& camera, glm::ivec2 size, int rounds);
+    /// Without `counted` the prices have no evaluations, and two programs with counters need not be compiled.
+    Pricing(Variation with, Variation without, const Camera& camera, glm::ivec2 size, int rounds, bool counted = true);
     /// Draws once, or waits for a program; says whether there is more to do. The renderer's own choices are put back.
     bool step(Renderer& renderer);
     double progress() const;                // 0 to 1
@@ -50,8 +51,14 @@ private:
     Side with_, without_;
     Camera camera_;
     glm::ivec2 size_;
-    int rounds_, done_ = 0;
+    int rounds_, before_, done_ = 0;  // draws before the rounds
     Price price_;
 };
+
+/// What leaving out saves: the general program, every row in it, against the scene's own. Their pictures are the same to the bit.
+Pricing ownAgainstGeneral(const Scene& scene, const Camera& camera, glm::ivec2 size, int rounds, bool counted);
+/// Whether the scene's own program is to be dropped for the general one: it was slower in every round, by more than is worth
+/// speaking of. (Sources: what others measured of specialised shaders, docs/effects.md.)
+bool ownIsSlower(const Price& saved);
 
 }  // namespace mb

@@ -43,7 +43,7 @@ std::string Renderer::develop(const Ready& ready) {
         return {};
     }
     std::string why;
-    const Program* film = program(Variant::develop, compose(Variant::develop, {}, plan_, ready.packed, ready.grid), ready.grid, why);
+    const Program* film = program(Variant::develop, compose(Variant::develop, {}, plan_, choice_, ready.packed, ready.grid), ready.grid, why);
     if (!film) return why;
     if (developed_.size() != picture_.size()) developed_ = Targets(picture_.size(), 1);
     developed_.bind();
@@ -141,7 +141,13 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
-    ready.program = program(variant, compose(variant, tree, plan_, ready.packed, ready.grid), ready.grid, ready.why);
+    Composed text = compose(variant, tree, plan_, choice_, ready.packed, ready.grid);
+    if (variant == Variant::plain && slower_.contains(text.text)) {
+        const Choice general{everyEffect(), {}};
+        plan_ = makePlan(scene, tree, general);
+        text = compose(variant, tree, plan_, general, ready.packed, ready.grid);
+    }
+    ready.program = program(variant, text, ready.grid, ready.why);
     if (!ready.program) return ready;
     glUseProgram(ready.program->name);
     if (ready.grid) grid.buffers.bind(*ready.program);

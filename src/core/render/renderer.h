@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <list>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ public:
     void choose(const Choice& choice) { choice_ = choice; }
     const Choice& choice() const { return choice_; }
     Evaluation evaluation() const { return evaluation_; }
+    /// From now on the general program draws what this scene's own would: that measured slower (core/render/pricing.h).
+    void preferGeneral(const Scene& scene) { slower_.insert(textOf(scene)); }
+    bool prefersGeneral(const Scene& scene) const { return slower_.contains(textOf(scene)); }
     /// Another shader library than the program's own: a test's.
     void setLibrary(Texts texts) { library_ = std::move(texts); }
 
@@ -109,7 +113,7 @@ private:
     enum class Variant { plain, counted, evaluate, develop };
 
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
-    Composed compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const;
+    Composed compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const;
     bool usesGrid(const Tree& tree) const;
     const Program* program(Variant variant, const Composed& composed, bool grid, std::string& why);
     std::string develop(const Ready& ready);
@@ -138,6 +142,7 @@ private:
     GLint block_bytes_ = 0;
     Evaluation evaluation_ = Evaluation::automatic;
     Choice choice_;
+    std::set<std::string> slower_;    // texts of programs that measured slower than the general ones
     Texts library_ = shaderLibrary();
     struct GridOnGpu {
         Grid grid;

@@ -25,11 +25,11 @@ bool Renderer::usesGrid(const Tree& tree) const {
     return evaluation_ == Evaluation::grid || tree.leaves.size() > kStraightLeaves;
 }
 
-Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Packed& packed, bool grid) const {
+Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const {
     const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !grid || isTurned(tree),
                       isCarved(tree)};
     Texts texts = library_;
-    if (variant != Variant::develop) texts["scene.glsl"] = grid ? gridGlsl(tree, choice_.on) : sceneGlsl(tree);
+    if (variant != Variant::develop) texts["scene.glsl"] = grid ? gridGlsl(tree, choice.on) : sceneGlsl(tree);
     putEffects(texts, plan);
     const std::string_view story = variant == Variant::evaluate ? "evaluate.glsl" : variant == Variant::develop ? "develop.glsl" : "fragment.glsl";
     Composed whole = resolve(texts, story, head(plan, sizes, variant == Variant::counted, grid));
@@ -45,7 +45,7 @@ Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, 
 
 std::string Renderer::textOf(const Scene& scene) const {
     const Tree tree = makeTree(scene);
-    return compose(Variant::plain, tree, makePlan(scene, tree, choice_), pack(scene, tree, {}), usesGrid(tree)).text;
+    return compose(Variant::plain, tree, makePlan(scene, tree, choice_), choice_, pack(scene, tree, {}), usesGrid(tree)).text;
 }
 
 const Program* Renderer::program(Variant variant, const Composed& composed, bool grid, std::string& why) {
