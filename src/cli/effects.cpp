@@ -64,6 +64,8 @@ Json asJson(const Scene& scene, const Ledgers& all, const Counts& counts, glm::i
     json["width"] = size.x, json["height"] = size.y;
     const auto& e = counts.evaluations;
     json["evaluations"] = {{"primary", e.primary}, {"normal", e.normal}, {"shadow", e.shadow}, {"reflection", e.reflection}, {"soft", e.soft}, {"occlusion", e.occlusion}};
+    json["saved"] = toJson(all.picture.saved());
+    json["dropped"] = ownIsSlower(all.picture.saved());
     json["effects"] = Json::array();
     for (const EffectPrice& row : all.picture.effects()) {
         Json line = {{"name", row.effect->name}, {"what", row.effect->tip}, {"called", row.called}, {"by", toJson(scene, row.because)}};
@@ -84,6 +86,12 @@ Json asJson(const Scene& scene, const Ledgers& all, const Counts& counts, glm::i
     return json;
 }
 
+/// What leaving out saves in all.
+std::string savedLine(const Price& saved) {
+    if (!saved.measured) return saved.note + '\n';
+    return fmt::format("a frame takes {:.1f} ms; with everything there is in its program, {:.1f} ms{}\n\n", saved.frame_ms - saved.ms, saved.frame_ms,
+                       ownIsSlower(saved) ? ": the scene's own program measured slower, and is dropped for that one" : "");
+}
 std::string pictureTable(const Scene& scene, const Ledgers& all, double pixels) {
     std::string called, left;
     for (const EffectPrice& row : all.picture.effects()) {
@@ -124,9 +132,9 @@ void run(const Options& options, const Common& common) {
     const Ledgers all = fill(scene, size, options, renderer, common);
     if (options.json) return writeText("-", asJson(scene, all, measured.counts, size).dump() + '\n');
     const double pixels = static_cast<double>(size.x) * size.y;
-    std::string text = fmt::format("{}: {}x{}, {:.2f} evaluations of the scene's distance a pixel, drawn by {}\n\n", options.scene, size.x, size.y,
+    std::string text = fmt::format("{}: {}x{}, {:.2f} evaluations of the scene's distance a pixel, drawn by {}\n", options.scene, size.x, size.y,
                                    static_cast<double>(measured.counts.evaluations.total()) / pixels, renderer.rendererName());
-    text += pictureTable(scene, all, pixels);
+    text += savedLine(all.picture.saved()) + pictureTable(scene, all, pixels);
     text += all.moves ? motionTable(scene, all) : "\nTHE PHYSICS: no body, no step\n";
     if (options.objects) text += recordTable(scene, all, pixels);
     writeText("-", text);

@@ -127,7 +127,7 @@ TEST_CASE("an input at fault ends with 1 and its places; a file at fault ends wi
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "x.png" + " --camera nobody").code == 1);
     CHECK(run(scratch, "eval " + scene + " --points " + scratch.path.string()).code == 4);
     // A full device is an error and stays a device; a link leads to its file; a file its owner made read-only stays.
-    for (const char* command : {"check ", "effects ", "simulate --seconds 0.1 "}) CHECK(runInto("/dev/full", command + scene) == 4);
+    for (const char* command : {"check ", "effects --glsl ", "effects --size 8x6 --rounds 1 ", "simulate --seconds 0.1 "}) CHECK(runInto("/dev/full", command + scene) == 4);
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o /dev/full").code == 4);
     CHECK(fs::is_character_file("/dev/full"));
     fs::create_symlink("target.png", scratch / "link.png");
@@ -278,17 +278,34 @@ TEST_CASE("eval agrees with itself on both processors") {
     CHECK(ran.err.starts_with(bad + ":2:3: error: "));
 }
 
-TEST_CASE("effects says what was called for, by what") {
+TEST_CASE("effects says what was called for, by what, and what it costs and shows") {
     const Scratch scratch;
-    const Ran ran = run(scratch, "effects --json " MARCHBOX_SOURCE "/saves/mirrors.txt");
+    const Ran ran = run(scratch, "effects --size 32x18 --rounds 1 --objects --json " MARCHBOX_SOURCE "/saves/mirrors.txt");
     REQUIRE_MESSAGE(ran.code == 0, ran.err);
     const auto json = nlohmann::json::parse(ran.out);
-    for (const auto& effect : json["effects"])
-        if (effect["name"] == "reflection") {
-            CHECK(effect["called"] == true);
-            CHECK(effect["by"].get<std::string>().find("Kr:") != std::string::npos);
-            CHECK(effect["evaluations"] > 0);
-        }
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& effect : json["effects"]) rows[effect["name"]] = effect;
+    const nlohmann::json& reflection = rows.at("reflection");
+    CHECK(reflection["called"] == true);
+    CHECK(reflection["by"][0].get<std::string>().find("Kr:") != std::string::npos);
+    CHECK(reflection["uses"] > 0);
+    CHECK(reflection["price"]["evaluations"] > 0);
+    CHECK(reflection["price"]["largest"] > 0);
+    const nlohmann::json& fog = rows.at("fog");
+    CHECK(fog["called"] == false);
+    CHECK(fog["by"].empty());
+    CHECK(fog["uses"] == 0);
+    CHECK(fog["price"]["largest"] == 0);
+    CHECK(json["records"].size() > 3);
+    CHECK(json["stages"].size() == 9);
+
+    const Ran table = run(scratch, "effects --size 32x18 --rounds 1 " MARCHBOX_SOURCE "/saves/bowl.txt");
+    for (const char* text : {"CALLED FOR", "LEFT OUT", "THE PHYSICS", "hard shadow", "restitution", "with everything there is in its program"})
+        CHECK_MESSAGE(table.out.find(text) != std::string::npos, text);
+    const Ran glsl = run(scratch, "effects --glsl " MARCHBOX_SOURCE "/saves/bowl.txt");
+    CHECK(glsl.out.starts_with("#version 330 core\n"));
+    CHECK(glsl.out.find("hardShadow") != std::string::npos);
+    CHECK(glsl.out.find("softShadow") == std::string::npos);
 }
 
 TEST_CASE("bench render --quick prints a line of JSON a figure") {

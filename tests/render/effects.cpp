@@ -247,7 +247,7 @@ TEST_CASE("the ledger prices what is called for, says what was left out, and put
     HeadlessRenderer headless;
     Scene scene = sceneOf(Setting().set(switchOf("light")).set(switchOf("hard shadow")));
     addObject(scene, "sphere", {0.3}, {0, 0.5, -300});  // beyond what can be seen
-    scene.objects.back().name = "unseen";
+    scene.objects.back().name = "unseen", scene.objects.back().material = 1;
     PictureLedger ledger(scene, kCamera, {kSize, 1, 8, true, true});
     double before = 0;
     while (ledger.step(*headless.renderer)) {

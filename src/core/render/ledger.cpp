@@ -1,5 +1,7 @@
 #include "core/render/ledger.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace mb {
@@ -10,11 +12,11 @@ constexpr std::size_t kMostRecords = 200;    // beyond it, objects below others 
 
 std::vector<RecordPrice> recordsOf(const Scene& scene) {
     std::vector<RecordPrice> records;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) records.push_back({{Because::Record::light, i, ""}, {}});
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) records.push_back({{Because::Record::light, i, fmt::format("intensity:{}", scene.lights[i].intensity)}, {}});
     const bool children = scene.objects.size() <= kMostRecords;
     for (std::size_t i = 0; i < scene.objects.size();) {
         const bool hidden = scene.objects[i].hidden;
-        if (!hidden) records.push_back({{Because::Record::object, i, std::string(scene.objects[i].type->name)}, {}});
+        if (!hidden) records.push_back({{Because::Record::object, i, fmt::format("type:{}", scene.objects[i].type->name)}, {}});
         i = hidden || !children ? subtreeEnd(scene, i) : i + 1;
     }
     return records;
