@@ -127,7 +127,7 @@ TEST_CASE("an input at fault ends with 1 and its places; a file at fault ends wi
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o " + scratch / "x.png" + " --camera nobody").code == 1);
     CHECK(run(scratch, "eval " + scene + " --points " + scratch.path.string()).code == 4);
     // A full device is an error and stays a device; a link leads to its file; a file its owner made read-only stays.
-    for (const char* command : {"check ", "effects --glsl ", "effects --size 8x6 --rounds 1 ", "simulate --seconds 0.1 "}) CHECK(runInto("/dev/full", command + scene) == 4);
+    for (const char* command : {"check ", "effects --glsl ", "simulate --seconds 0.1 "}) CHECK(runInto("/dev/full", command + scene) == 4);
     CHECK(run(scratch, "render " + scene + " --size 16x9 -o /dev/full").code == 4);
     CHECK(fs::is_character_file("/dev/full"));
     fs::create_symlink("target.png", scratch / "link.png");
@@ -280,7 +280,8 @@ TEST_CASE("eval agrees with itself on both processors") {
 
 TEST_CASE("effects says what was called for, by what, and what it costs and shows") {
     const Scratch scratch;
-    const Ran ran = run(scratch, "effects --size 32x18 --rounds 1 --objects --json " MARCHBOX_SOURCE "/saves/mirrors.txt");
+    const std::string scene = write(scratch, "s.txt", kScene + "material name:mirror Kr:0.4\nobject type:sphere radius:0.4 material:mirror pos:1,0.5,0\n");
+    const Ran ran = run(scratch, "effects --size 32x18 --rounds 1 --objects --json " + scene);
     REQUIRE_MESSAGE(ran.code == 0, ran.err);
     const auto json = nlohmann::json::parse(ran.out);
     std::map<std::string, nlohmann::json> rows;
@@ -299,13 +300,14 @@ TEST_CASE("effects says what was called for, by what, and what it costs and show
     CHECK(json["records"].size() > 3);
     CHECK(json["stages"].size() == 9);
 
-    const Ran table = run(scratch, "effects --size 32x18 --rounds 1 " MARCHBOX_SOURCE "/saves/bowl.txt");
+    const Ran table = run(scratch, "effects --size 32x18 --rounds 1 " + scene);
     for (const char* text : {"CALLED FOR", "LEFT OUT", "THE PHYSICS", "hard shadow", "restitution", "with everything there is in its program"})
         CHECK_MESSAGE(table.out.find(text) != std::string::npos, text);
-    const Ran glsl = run(scratch, "effects --glsl " MARCHBOX_SOURCE "/saves/bowl.txt");
+    const Ran glsl = run(scratch, "effects --glsl " + scene);
     CHECK(glsl.out.starts_with("#version 330 core\n"));
     CHECK(glsl.out.find("hardShadow") != std::string::npos);
     CHECK(glsl.out.find("softShadow") == std::string::npos);
+    CHECK(run(scratch, "effects --size 0x5 " + scene).code == 2);
 }
 
 TEST_CASE("bench render --quick prints a line of JSON a figure") {

@@ -11,6 +11,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -75,7 +76,7 @@ TEST_CASE("the arrows: nothing includes what it may not") {
 
 TEST_CASE("the documents name files that exist") {
     const std::regex ticked(R"(`((?:src|shaders|tests|saves|docs|tools|bench)/[A-Za-z0-9_./*-]{0,80}|run|test|LICENSE)`)");
-    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md", "docs/benchmarks.md"}) {
+    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md", "docs/benchmarks.md", "docs/effects.md"}) {
         for (const std::string& named : matches(read(kRoot / document), ticked)) {
             CAPTURE(document);
             CHECK_MESSAGE(fs::exists(kRoot / named), named);
@@ -96,4 +97,23 @@ TEST_CASE("the README's scene reads without a fault, and its commands are of sav
 
 TEST_CASE("no file of the program is so long that it should be two") {
     for (const auto& [file, path] : sources()) CHECK_MESSAGE(std::ranges::count(read(file), '\n') <= 330, path);
+}
+
+TEST_CASE("the effect of docs/extending.md is the one in the program, line by line") {
+    const std::string document = read(kRoot / "docs/extending.md");
+    const std::size_t begin = document.find("## An effect"), end = document.find("\n## ", begin + 1);
+    const std::string files = read(kRoot / "src/core/effects/table.cpp") + read(kRoot / "shaders/lib/effects/fog.glsl");
+    std::istringstream lines(document.substr(begin, end - begin));
+    int compared = 0;
+    bool code = false;
+    for (std::string line; std::getline(lines, line);) {
+        const std::string text = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+        if (text.starts_with("```")) {
+            code = !code;
+        } else if (code && !text.empty()) {
+            CHECK_MESSAGE(files.find(text) != std::string::npos, text);
+            ++compared;
+        }
+    }
+    CHECK(compared > 5);
 }

@@ -58,7 +58,7 @@ constexpr EffectKey kAoKeys[] = {
     {Carrier::render, "ao_rays", "", "from each point, where ao is not 0", 1, 256, 1, 64, 16, "renderAoRays", true},
 };
 constexpr EffectKey kEmissionKeys[] = {{Carrier::material, "emission", "", "light of its own, times the color", 0, 1e3, 0, 4, 0, "materialEmission"}};
-constexpr EffectKey kFogKeys[] = {{Carrier::world, "fog", "1/m", "share of the light that a metre of air takes, in the background's color", 0, 1e3, 0, 0.3, 0, "worldFog"}};
+constexpr EffectKey kFogKeys[] = {{Carrier::world, "fog", "1/m", "how fast light fades into the background: 1/e is left after 1/fog metres", 0, 1e3, 0, 0.3, 0, "worldFog"}};
 constexpr EffectKey kToneKeys[] = {{Carrier::render, "exposure", "", "of the film, which bright colors never saturate; 0: colors above 1 are cut", 0, 1e6, 0, 8, 0, "renderExposure"}};
 
 void lightCalls(const Effect&, const Scene& scene, const Tree& tree, Calls& out) {
