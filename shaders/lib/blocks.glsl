@@ -85,6 +85,4 @@ bool showsUndecided() { return frame.limits.w != 0; }
 vec3 background() { return frame.pass.z != 0 ? frame.background.rgb : vec3(0.0); }
 #ifdef EFFECT_REFLECTION
 int reflections() { return frame.limits.z; }
-#else
-int reflections() { return 0; }
 #endif

@@ -135,6 +135,7 @@ void putEffects(Texts& io_texts, const Plan& plan) {
 std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) {
     const auto define = [](std::string_view name, std::size_t size) { return fmt::format("#define {} {}\n", name, std::max<std::size_t>(size, 1)); };
     std::string text = define("LIGHTS", sizes.lights);
+    if (sizes.lights == 1) text += "#define ONE_LIGHT\n";
     if (grid) text += "#define GRID\n";
     else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
     bool materials = false;
