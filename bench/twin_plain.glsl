@@ -83,11 +83,10 @@ Material materialAt(vec3 p, float tie) {
 const int PROBES = 8;
 bool hasInside(Ray ray, March march, vec3 p) {
     float travelled = ray.travelled + march.t;
-    vec3 normal = vec3(0.0);
+    vec3 normal = normalAt(p, travelled, march.side, ray.direction, march.state != HIT);
     float f = march.closest, depth = 0.0, rate = 1.0;
     for (int i = 0; i < 4 * PROBES; ++i) {
         if (march.state == HIT || f < 0.0) break;
-        if (i == 0) normal = normalAt(p, travelled, march.side, ray.direction);
         if (i % PROBES == 0) { f = march.closest; depth = 0.0; rate = 1.0; }
         float step = max(f / rate, 0.125 * noiseAt(travelled) * exp2(float(i % PROBES)));
         depth += step;

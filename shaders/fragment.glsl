@@ -72,7 +72,7 @@ void main() {
 #endif
 
     if (cut_short) outcome.state = UNDECIDED;
-    if (outcome.state == UNDECIDED && showsUndecided()) color = frame.pass.z != 0 ? UNDECIDED_TINT : vec3(0.0);
+    if (outcome.state == UNDECIDED && showsUndecided()) color = isFirstPass() ? UNDECIDED_TINT : vec3(0.0);
     out_color = vec4(color, frame.background.w);
     gl_FragDepth = depthOf(outcome.depth);
 #ifdef COUNTED
