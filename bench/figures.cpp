@@ -18,12 +18,25 @@ constexpr Figure kFigures[] = {
 
 std::span<const Figure> figures() { return kFigures; }
 
+namespace {
+Json about(const Bench& bench) {
+    return {{"figure", "about"}, {"renderer", bench.renderer.rendererName()}, {"threads", std::thread::hardware_concurrency()},
+            {"rounds", bench.options.rounds}, {"seed", bench.options.seed}, {"quick", bench.options.quick}};
+}
+}  // namespace
+
 void run(Bench& bench) {
-    bench.print({{"figure", "about"}, {"renderer", bench.renderer.rendererName()}, {"threads", std::thread::hardware_concurrency()},
-                 {"rounds", bench.options.rounds}, {"seed", bench.options.seed}, {"quick", bench.options.quick}});
+    bench.print(about(bench));
     const auto& only = bench.options.only;
     for (const Figure& figure : kFigures)
         if (only.empty() || std::ranges::find(only, figure.name) != only.end()) figure.run(bench);
+}
+
+void runEffects(Bench& bench) {
+    Json line = about(bench);
+    line.erase("seed");  // these scenes are files
+    bench.print(line);
+    effectsFigure(bench);
 }
 
 }  // namespace mb::bench

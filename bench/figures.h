@@ -1,5 +1,5 @@
 #pragma once
-// The figures of `marchbox bench render`: one row each.
+// The figures of `marchbox bench render`, one row each, and that of `marchbox bench effects`.
 #include "bench/report.h"
 
 #include <span>
@@ -14,11 +14,14 @@ std::span<const Figure> figures();
 
 /// A line about the run, then the figures asked for. Names that are no figure's are the caller's to refuse.
 void run(Bench& bench);
+/// A line about the run, then what the effects cost that scenes do not call for.
+void runEffects(Bench& bench);
 
 void seedFigure(Bench&);
 void growthFigure(Bench&);
 void movedFigure(Bench&);
 void countsFigure(Bench&);
 void povrayFigure(Bench&);
+void effectsFigure(Bench&);
 
 }  // namespace mb::bench

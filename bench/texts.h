@@ -1,5 +1,5 @@
 #pragma once
-// The benchmarks' own shaders, put into the program when it is built.
+// The benchmarks' own shaders and the twins' scenes, put into the program when it is built.
 #include "core/render/shader_texts.h"
 
 namespace mb {

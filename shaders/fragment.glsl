@@ -36,35 +36,43 @@ layout(location = 7) out vec4 out_occlusion;
 layout(location = 1) out vec4 out_undecided;    // 1 for a pixel whose own ray is
 #endif
 
+// One stretch of the ray: adds what it brings to the color, and says whether another one follows it, from mirror to mirror.
+bool follow(int bounce, inout Ray ray, inout vec3 color, inout float weight) {
+    March march = marchRay(ray, frame.reach.y, marchSteps());
+    countMarch(bounce, march);
+    bool seen = march.state == HIT || (march.state == UNDECIDED && looksLikeSurface(march)), goes_on = false;
+    Surface surface;
+    if (seen) {
+        surface = surfaceAt(ray, march);
+        seen = hasInside(surface, march, ray.direction);
+    }
+    if (seen) {
+        if (bounce == 0) keepPrimary(march, surface.normal, surface.object);
+#effects air
+        color += weight * phong(surface, ray.direction);
+#effects onward
+    } else {
+        if (bounce == 0) keepPrimary(march, vec3(0.0), -1.0);
+        color += weight * background();
+    }
+    return goes_on;
+}
+
 void main() {
     readScene();
     spare_steps = RETRY * marchSteps();
     Ray ray = cameraRay(gl_FragCoord.xy);
     vec3 color = vec3(0.0);
     float weight = 1.0;
-    for (int bounce = 0; bounce <= reflections(); ++bounce) {
-        March march = marchRay(ray, frame.reach.y, marchSteps());
-        countMarch(bounce, march);
-        bool seen = march.state == HIT || (march.state == UNDECIDED && looksLikeSurface(march));
-        Surface surface;
-        if (seen) {
-            surface = surfaceAt(ray, march);
-            seen = hasInside(surface, march, ray.direction);
-        }
-        if (!seen) {
-            if (bounce == 0) keepPrimary(march, vec3(0.0), -1.0);
-            color += weight * background();
-            break;
-        }
-
-        if (bounce == 0) keepPrimary(march, surface.normal, surface.object);
-#effects air
-        color += weight * phong(surface, ray.direction);
-#effects onward
-    }
+#ifdef EFFECT_REFLECTION
+    for (int bounce = 0; bounce <= reflections(); ++bounce)
+        if (!follow(bounce, ray, color, weight)) break;
+#else
+    follow(0, ray, color, weight);  // a loop of one turn costs a picture's fifth: llvmpipe keeps it
+#endif
 
     if (cut_short) outcome.state = UNDECIDED;
-    if (outcome.state == UNDECIDED && showsUndecided()) color = frame.pass.z != 0 ? UNDECIDED_TINT : vec3(0.0);
+    if (outcome.state == UNDECIDED && showsUndecided()) color = isFirstPass() ? UNDECIDED_TINT : vec3(0.0);
     out_color = vec4(color, frame.background.w);
     gl_FragDepth = depthOf(outcome.depth);
 #ifdef COUNTED

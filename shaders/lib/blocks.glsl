@@ -82,9 +82,13 @@ vec3 local(vec3 p, Node node) { return turnedTo(p - node.position.xyz, node); }
 int marchSteps() { return frame.limits.x; }
 int shadowSteps() { return frame.limits.y; }
 bool showsUndecided() { return frame.limits.w != 0; }
-vec3 background() { return frame.pass.z != 0 ? frame.background.rgb : vec3(0.0); }
+// Whether this pass adds what is not the lights' own. Only of many lights is there more than one pass.
+#ifdef MANY_PASSES
+bool isFirstPass() { return frame.pass.z != 0; }
+#else
+bool isFirstPass() { return true; }
+#endif
+vec3 background() { return isFirstPass() ? frame.background.rgb : vec3(0.0); }
 #ifdef EFFECT_REFLECTION
 int reflections() { return frame.limits.z; }
-#else
-int reflections() { return 0; }
 #endif

@@ -2,7 +2,7 @@
 
 struct Surface {
     vec3 position;
-    vec3 normal;
+    vec3 normal;         // where nothing shades: of an undecided ray's only
     float travelled;     // metres from the eye, along the path
     float object;
     vec3 color;
@@ -22,7 +22,12 @@ Surface surfaceAt(Ray ray, March march) {
     Look look = lookOf(march.leaf, at);
     s.object = march.leaf < 0 ? -1.0 : node.x_axis.w;
 #else
-    s.normal = normalAt(s.position, s.travelled, march.side, ray.direction);
+#ifdef NORMALS
+    bool asked = true;
+#else
+    bool asked = march.state != HIT;  // by hasInside() alone
+#endif
+    s.normal = normalAt(s.position, s.travelled, march.side, ray.direction, asked);
     tie = noiseAt(s.travelled);
     Nearest found = nearest(s.position);
     count(NORMAL, 1);

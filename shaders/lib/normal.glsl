@@ -9,26 +9,30 @@ float normalReach(float travelled) {
     return intBitsToFloat(floatBitsToInt(h) & 0x7F800000);
 }
 
-// The field's gradient, by six evaluations in one loop (one copy of map() instead of six, to compile sooner).
-vec3 gradientAt(vec3 p, float h) {
+// The field's gradient, by six evaluations in one loop (one copy of map() instead of six, to compile sooner); 0 if it is not asked
+// for. llvmpipe passes over loops alone: behind an `if` it would be evaluated all the same.
+vec3 gradientAt(vec3 p, float h, bool asked) {
     vec3 gradient = vec3(0.0);
     for (int i = 0; i < 6; ++i) {
+        if (!asked) break;
         int axis = i >> 1;
         vec3 along = vec3(axis == 0, axis == 1, axis == 2) * ((i & 1) == 0 ? 1.0 : -1.0);
         gradient += along * map(p + along * h);
     }
-    count(NORMAL, 6);
+    count(NORMAL, asked ? 6 : 0);
     return gradient / (2.0 * h);
 }
+vec3 gradientAt(vec3 p, float h) { return gradientAt(p, h, true); }
 
 // A unit vector out of the solid on the side the ray came from; against the ray where the field has no slope. Where two
 // surfaces lie within the differences' reach it may come out turned away from the ray: then it is turned to lie across it.
-vec3 normalAt(vec3 p, float travelled, float side, vec3 direction) {
-    vec3 g = gradientAt(p, normalReach(travelled)) * side;
+vec3 normalAt(vec3 p, float travelled, float side, vec3 direction, bool asked) {
+    vec3 g = gradientAt(p, normalReach(travelled), asked) * side;
     g -= max(dot(g, direction), 0.0) * direction;
     float size = length(g);
     return size > 1e-6 ? g / size : -direction;
 }
+vec3 normalAt(vec3 p, float travelled, float side, vec3 direction) { return normalAt(p, travelled, side, direction, true); }
 
 #ifdef LEAF_SURFACE
 // The normal of one leaf, at a point of its frame, by differences of its distance alone: an edge between two leaves is sharp.

@@ -4,7 +4,7 @@
 vec3 phong(Surface s, vec3 direction) {
     AS_WRITTEN vec3 around = s.ambient * s.color;
 #effects around
-    vec3 color = frame.pass.z != 0 ? around : vec3(0.0);
+    vec3 color = isFirstPass() ? around : vec3(0.0);
 #effects lights
     return color;
 }

@@ -15,7 +15,7 @@
 namespace mb::cli {
 namespace {
 
-struct RenderOptions {
+struct FigureOptions {
     bench::Options bench;
     std::string size;
 };
@@ -38,8 +38,8 @@ std::uint32_t parseSeed(const Common& common) {
     return static_cast<std::uint32_t>(common.seed);
 }
 
-void runRender(const RenderOptions& options, const Common& common) {
-    checkNames(options.bench.only);
+/// Makes the pictures of `figures` with a context of their own.
+void draw(const FigureOptions& options, const Common& common, void (*figures)(bench::Bench&)) {
     const auto context = headlessContext();
     checkSize(options.bench.size);
     Renderer renderer;
@@ -51,25 +51,43 @@ void runRender(const RenderOptions& options, const Common& common) {
                            fmt::print(stderr, "\r\033[K{}", what);
                            std::fflush(stderr);
                        }};
-    bench::run(bench);
+    figures(bench);
     if (terminal) fmt::print(stderr, "\r\033[K");
+}
+
+/// The options that all figures of pictures have.
+void addOptions(CLI::App& figures, FigureOptions& o) {
+    figures.fallthrough();
+    figures.add_option("--rounds", o.bench.rounds, "turns each contender takes")->capture_default_str()->check(within(5, 1000));
+    figures.add_option("--size", o.size, "WxH pixels (512x512; 64x64 with --quick)");
+}
+void readSize(FigureOptions& o) {
+    if (!o.size.empty()) o.bench.size = parseSize(o.size);
+    else if (o.bench.quick) o.bench.size = {64, 64};
 }
 
 std::function<void()> make(CLI::App& app, Common& common) {
     app.require_subcommand(1);
     CLI::App* render = app.add_subcommand("render", "pictures: against the first shader, against POV-Ray, and in counts");
-    render->fallthrough();
     render->footer("Example:\n  marchbox bench render --only counts");
-    const auto o = std::make_shared<RenderOptions>();
-    render->add_option("--rounds", o->bench.rounds, "turns each contender takes")->capture_default_str()->check(within(5, 1000));
-    render->add_option("--size", o->size, "WxH pixels (512x512; 64x64 with --quick)");
-    render->add_option("--only", o->bench.only, "the figures wanted, a list with commas, of " + figureNames())->delimiter(',');
-    render->add_flag("--quick", o->bench.quick, "small scenes and pictures only: does it work?");
-    return [o, &app, &common] {
-        if (!o->size.empty()) o->bench.size = parseSize(o->size);
-        else if (o->bench.quick) o->bench.size = {64, 64};
-        if (app.count("--seed") > 0) o->bench.seed = parseSeed(common);
-        runRender(*o, common);
+    const auto r = std::make_shared<FigureOptions>();
+    addOptions(*render, *r);
+    render->add_option("--only", r->bench.only, "the figures wanted, a list with commas, of " + figureNames())->delimiter(',');
+    render->add_flag("--quick", r->bench.quick, "small scenes and pictures only: does it work?");
+
+    CLI::App* effects = app.add_subcommand("effects", "what the effects cost that a scene does not call for: against shaders that never had them");
+    effects->footer("Example:\n  marchbox bench effects --rounds 51");
+    const auto e = std::make_shared<FigureOptions>();
+    e->bench.rounds = 21;  // to tell 2 %
+    addOptions(*effects, *e);
+    effects->add_flag("--quick", e->bench.quick, "small pictures and five rounds: does it work?");
+    return [=, &app, &common] {
+        readSize(*r), readSize(*e);
+        if (app.count("--seed") > 0) r->bench.seed = parseSeed(common);
+        checkNames(r->bench.only);
+        if (e->bench.quick && effects->count("--rounds") == 0) e->bench.rounds = 5;
+        if (*effects) draw(*e, common, bench::runEffects);
+        else draw(*r, common, bench::run);
     };
 }
 

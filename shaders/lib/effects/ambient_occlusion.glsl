@@ -6,7 +6,7 @@ float openness(Surface s) {
     float reach = renderAo();
     vec3 from = leave(s);
     Frame3 sky = frameAround(s.normal);
-    int rays = reach > 0.0 && frame.pass.z != 0 ? renderAoRays() : 0;  // the ambient light comes with the first lights
+    int rays = reach > 0.0 && isFirstPass() ? renderAoRays() : 0;  // the ambient light comes with the first lights
     float turn = turnOfPixel();
     float open = 0.0;
     for (int i = 0; i < MOST_RAYS; ++i) {

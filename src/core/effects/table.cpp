@@ -116,7 +116,7 @@ constexpr Effect kPicture[] = {
     {"specular", "highlights", specularCalls, "points shaded", "highlight", "shine += highlight(s, to_light, direction);"},
     {"light", "diffuse light from each light", lightCalls, "points shaded", "lights", "color += lit(s, direction);"},
     {"fog", "air that hides what is far", amountCalls, "stretches of rays", "air", "throughFog(march.t, color, weight);", kFogKeys},
-    {"reflection", "marched rays from mirror to mirror", reflectionCalls, "bounces", "onward", "if (!reflected(surface, ray, weight)) break;"},
+    {"reflection", "marched rays from mirror to mirror", reflectionCalls, "bounces", "onward", "goes_on = reflected(surface, ray, weight);"},
     {"samples", "several rays a pixel, which smooth its edges", sampleCalls, ""},
     {"tone mapping", "a film that bright colors never saturate", amountCalls, "", "film", "c = developed(c);", kToneKeys},
 };

@@ -135,17 +135,22 @@ void putEffects(Texts& io_texts, const Plan& plan) {
 std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) {
     const auto define = [](std::string_view name, std::size_t size) { return fmt::format("#define {} {}\n", name, std::max<std::size_t>(size, 1)); };
     std::string text = define("LIGHTS", sizes.lights);
+    if (plan.passes.size() > 1) text += "#define MANY_PASSES\n";
+    if (sizes.lights == 1) text += "#define ONE_LIGHT\n";
     if (grid) text += "#define GRID\n";
     else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
-    bool materials = false;
+    bool materials = false, normals = counted;
     for (const Plan::Called& c : plan.called) {
         if (!c.effect->ofPicture()) continue;
         std::string name = fileNameOf(*c.effect);
         std::ranges::transform(name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
         text += fmt::format("#define EFFECT_{} {}\n", name, numberOf(*c.effect));
+        // What stands at a surface may ask for its normal.
+        normals |= !c.effect->at.empty() && c.effect->at != "air" && c.effect->at != "film";
         materials |= std::ranges::any_of(c.effect->keys, [](const EffectKey& key) { return key.carrier == Carrier::material; });
     }
     if (materials) text += "#define MATERIAL_EXTRA\n";
+    if (normals) text += "#define NORMALS\n";
     if (sizes.turned) text += "#define TURNED\n";
     if (sizes.carved) text += "#define CARVED\n";
     if (counted) text += "#define COUNTED\n";
