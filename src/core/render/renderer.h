@@ -33,7 +33,8 @@ struct Counts {
         std::uint64_t primary = 0, normal = 0, shadow = 0, reflection = 0, soft = 0, occlusion = 0;
         std::uint64_t total() const { return primary + normal + shadow + reflection + soft + occlusion; }
     };
-    ByKind evaluations;     // of the scene's distance; normal: with the look-up of the surface's object
+    ByKind evaluations;     // of the scene's distance; normal: with the look-up of the surface's object, and
+                            // also where nothing shades: for the channel, the picture itself then takes none
     ByKind touched;         // primitives' distances evaluated in them
     ByKind rays;            // no normal
     ByKind undecided_rays;  // no primary: those are pixels.undecided
