@@ -41,7 +41,7 @@ private:
     glm::ivec2 window_{0}, corner_{0}, size_{0};
     std::uint64_t drawn_revision_ = 0;
     double changed_at_ = 0;            // ms
-    double ns_per_pixel_ = 2000;       // of the last pictures
+    double ns_per_pixel_ = 8000;       // of the last pictures; at first, of a scene that is not light
     glm::ivec2 drawn_{0};              // the size of the preview
     int next_row_ = 0;                 // of the refinement, in pixels from the bottom
     int compiled_ = 0;                 // programs there were when a picture was last drawn

@@ -24,11 +24,11 @@ public:
         Grid none;
         grid_.upload(none, {});
     }
-    void draw(const Program& program, const Compiler::Job& job) const {
+    void draw(const Program& program, const Compiler::Job& job) {
         const Targets picture({kSide, kSide}, job.attachments);
-        picture.clear();
         glUseProgram(program.name);
         if (job.grid) grid_.bind(program);
+        picture.clear();
         std::optional<AddingUp> adding;
         if (job.adds) adding.emplace();
         quad_.draw();
@@ -98,7 +98,7 @@ void Compiler::run(std::string& why) {
 }
 
 void Compiler::work() {
-    const Trial trial;
+    Trial trial;
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return ends_ || (waiting_ && !done_); });

@@ -103,7 +103,24 @@ std::string GridBuffers::upload(Grid& grid, const Packed& packed) {
     return {};
 }
 
-void GridBuffers::bind(const Program& program) const {
+GridBuffers::Settler::Settler()
+    : program(makeProgram(resolve({{"settle.glsl", "#version 330 core\nuniform sampler2D picture;\nout vec4 color;\n"
+                                                   "void main() { color = texelFetch(picture, ivec2(0), 0); }\n"}}, "settle.glsl"))) {}
+
+void GridBuffers::Settler::draw() const {
+    picture.bind();
+    glUseProgram(program.name);
+    glActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, picture.texture(0));
+    gl.Enable(GL_RASTERIZER_DISCARD);
+    quad.draw();
+    gl.Disable(GL_RASTERIZER_DISCARD);
+}
+
+void GridBuffers::bind(const Program& program) {
+    if (!settler_) settler_.emplace();
+    settler_->draw();
+    glUseProgram(program.name);
     const std::pair<const char*, const Store*> kSamplers[] = {{"grid_cells", &cells_}, {"grid_lists", &lists_}, {"grid_items", &items_}, {"records", &records_}};
     GLenum unit = 1;  // 0 is for what a pass reads of its own
     for (const auto& [name, store] : kSamplers) {
