@@ -134,10 +134,15 @@ void Viewport::count(const Scene& scene, const Camera& camera, PictureState& sta
     const Counts& c = measured.counts;
     const double pixels = static_cast<double>(size.x) * size.y;
     const auto each = [&](std::uint64_t n) { return static_cast<double>(n) / pixels; };
-    state.counts = fmt::format("at {}x{}, evaluations a pixel: {:.1f} primary, {:.1f} normal, {:.1f} shadow, {:.1f} reflection; undecided: {} of {} pixels, "
-                               "{} of {} shadow rays, {} of {} reflected rays", size.x, size.y, each(c.evaluations.primary),
-                               each(c.evaluations.normal), each(c.evaluations.shadow), each(c.evaluations.reflection), c.pixels.undecided,
-                               size.x * size.y, c.undecided_rays.shadow, c.rays.shadow, c.undecided_rays.reflection, c.rays.reflection);
+    std::string asked, undecided;
+    const auto add = [&](const char* kind, std::uint64_t Counts::ByKind::*of) {
+        if (c.evaluations.*of > 0) asked += fmt::format(", {:.1f} {}", each(c.evaluations.*of), kind);
+        if (c.rays.*of > 0) undecided += fmt::format(", {} of {} {} rays", c.undecided_rays.*of, c.rays.*of, kind);
+    };
+    add("shadow", &Counts::ByKind::shadow), add("soft shadow", &Counts::ByKind::soft);
+    add("ambient", &Counts::ByKind::occlusion), add("reflected", &Counts::ByKind::reflection);
+    state.counts = fmt::format("at {}x{}, evaluations a pixel: {:.1f} primary, {:.1f} normal{}; undecided: {} of {} pixels{}", size.x, size.y,
+                               each(c.evaluations.primary), each(c.evaluations.normal), asked, c.pixels.undecided, size.x * size.y, undecided);
 }
 
 /// As much of the ledger as a frame has time for, while the picture is at rest.
