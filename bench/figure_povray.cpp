@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace mb::bench {
 namespace {
@@ -26,8 +25,6 @@ double differing(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& 
     return static_cast<double>(count) / static_cast<double>(a.size());
 }
 
-double cpuMs() { return 1000 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 void compare(Bench& bench, std::string_view family, int n) {
     bench.say(fmt::format("povray: {}, {} primitives", family, n));
     const Model model = makeModel(family, n, bench.options.seed);
@@ -43,8 +40,8 @@ void compare(Bench& bench, std::string_view family, int n) {
     const Contender draws = marchbox(bench, scene);
     const Contender contenders[] = {
         [&] {
-            const double before = cpuMs(), ms = draws();
-            own_cpu.push_back(cpuMs() - before);
+            const double before = processorMs(), ms = draws();
+            own_cpu.push_back(processorMs() - before);
             return ms;
         },
         [&] {

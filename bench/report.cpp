@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 
 namespace mb::bench {
@@ -37,6 +38,8 @@ void addRatio(Json& line, const Turns& turns, std::string_view ratio_of, std::si
     line["ratio"] = toJson(ratio(turns.ms[a], turns.ms[b]));
     if (turns.foreign_cores) line["foreign_cores"] = std::round(100 * *turns.foreign_cores) / 100;
 }
+
+double processorMs() { return 1000 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Contender marchbox(Bench& bench, const Scene& scene) {
     // A renderer of its own: the grid of the scene before it is not this one's to build again in each round.

@@ -43,6 +43,9 @@ std::vector<int> sizesOf(const Bench& bench, std::initializer_list<int> sizes);
 /// Adds to a line the ratio of contender a's times to b's, and what else is said of turns.
 void addRatio(Json& line, const Turns& turns, std::string_view ratio_of, std::size_t a, std::size_t b);
 
+/// Processor time that this program took so far, in ms: of all its threads.
+double processorMs();
+
 /// Draws a scene with marchbox, to the last pixel. The scene must have been drawn once.
 Contender marchbox(Bench& bench, const Scene& scene);
 

@@ -101,7 +101,7 @@ void main() {
         float travelled = ray.travelled + march.t;
         vec3 normal = normalAt(p, travelled, march.side, ray.direction);
         Material material = materialAt(p, noiseAt(travelled));
-        AS_WRITTEN vec3 around = material.color.w * material.color.rgb;
+        vec3 around = material.color.w * material.color.rgb;
         color = around + lamp_color.rgb * (material.diffuse.w * lampAt(p, normal, travelled) * material.color.rgb);
     }
     bool undecided = march.state == UNDECIDED || cut_short;

@@ -80,7 +80,7 @@ Material materialAt(vec3 p, float tie) {
 
 // A surface's own light along a ray: ambient, and the lamp's, diffuse and mirrored.
 vec3 shade(vec3 p, vec3 normal, vec3 direction, Material material) {
-    AS_WRITTEN vec3 color = material.color.w * material.color.rgb;
+    vec3 color = material.color.w * material.color.rgb;
     vec3 way = lamp.xyz - p;
     float far = length(way);
     vec3 to_lamp = far > 0.0 ? way / far : normal;
@@ -116,19 +116,19 @@ void main() {
             undecided = march.state == UNDECIDED;
             depth = march.state == HIT ? march.t : INFINITY;
         }
-        if (march.state == MISS || (march.state == UNDECIDED && !looksLikeSurface(march))) {
+        bool seen = march.state == HIT || (march.state == UNDECIDED && looksLikeSurface(march));
+        if (seen) {
+            vec3 p = ray.origin + ray.direction * march.t;
+            float travelled = ray.travelled + march.t;
+            vec3 normal = normalAt(p, travelled, march.side, ray.direction);
+            Material material = materialAt(p, noiseAt(travelled));
+            color += weight * shade(p, normal, ray.direction, material);
+            weight *= material.phong.y;
+            ray = onward(ray, p, normal, travelled);
+        } else {
             color += weight * frame.background.rgb;
-            break;
         }
-
-        vec3 p = ray.origin + ray.direction * march.t;
-        float travelled = ray.travelled + march.t;
-        vec3 normal = normalAt(p, travelled, march.side, ray.direction);
-        Material material = materialAt(p, noiseAt(travelled));
-        color += weight * shade(p, normal, ray.direction, material);
-        weight *= material.phong.y;
-        ray = onward(ray, p, normal, travelled);
-        if (weight < 1.0 / 255.0) break;
+        if (!seen || weight < 1.0 / 255.0) break;
     }
     undecided = undecided || cut_short;
     if (undecided && frame.limits.w != 0) color = UNDECIDED_TINT;

@@ -22,7 +22,7 @@ Surface surfaceAt(Ray ray, March march) {
     Look look = lookOf(march.leaf, at);
     s.object = march.leaf < 0 ? -1.0 : node.x_axis.w;
 #else
-#ifdef NORMALS
+#ifdef SHADED
     bool asked = true;
 #else
     bool asked = march.state != HIT;  // by hasInside() alone

@@ -17,10 +17,11 @@ real opMorph(real a, real b, real t) { return a * (1.0f - t) + b * t; }
 
 // How much of the second child's surface shows, from 0 to 1: the value's derivative by it. Where the share is 0 or 1 the
 // value is one child's alone. `lead` is how far the second is ahead of the first; where next to nothing is blended, it must be
-// ahead by more than `tie`.
+// ahead by more than `tie`. By a blend that is the constant 0 this folds to that comparison.
 real shareOf(real lead, real blend, real tie) {
-    real ahead = pick(tie - blend, lead, lead - tie);
-    return min(max(0.5f + ahead / (2.0f * max(blend, 1e-30f)), 0.0f), 1.0f);
+    real ahead = pick(-blend, pick(tie - blend, lead, lead - tie), lead - tie);
+    real mixed = min(max(0.5f + ahead / (2.0f * max(blend, 1e-30f)), 0.0f), 1.0f);
+    return pick(-blend, mixed, pick(-ahead, 1.0f, 0.0f));
 }
 real shareUnion(real a, real b, real blend, real tie) { return shareOf(a - b, blend, tie); }
 real shareIntersect(real a, real b, real blend, real tie) { return shareOf(b - a, blend, tie); }

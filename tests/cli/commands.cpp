@@ -81,7 +81,7 @@ Pfm readPfm(const std::string& path) {
 
 TEST_CASE("help and version; a command line at fault ends with 2") {
     const Scratch scratch;
-    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check", "bench", "bench render"}) {
+    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check", "bench", "bench render", "bench effects"}) {
         CAPTURE(command);
         const Ran help = run(scratch, std::string(command) + " --help");
         CHECK(help.code == 0);
@@ -97,7 +97,7 @@ TEST_CASE("help and version; a command line at fault ends with 2") {
           "render " + scene + " -o x_%04d.png", "render " + scene + " -o x_%04d.mp4 --frames 2", "render " + scene + " -o x.png --at nan",
           "render " + scene + " -o x.png --size 99999x9", "simulate " + scene + " --seconds nan", "simulate " + scene + " --seconds 1 --dt nan",
           std::string("bench"), std::string("bench nothing"), std::string("bench render --only nonsense"), std::string("bench render --rounds 4"), std::string("bench render --quick --seed 4294967296"),
-          std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
+          std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("bench effects --only seed"), std::string("bench effects --rounds 4"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
           std::string("--nonsense")}) {
         CAPTURE(arguments);
         const Ran ran = run(scratch, arguments);
@@ -308,6 +308,25 @@ TEST_CASE("effects says what was called for, by what, and what it costs and show
     CHECK(glsl.out.find("hardShadow") != std::string::npos);
     CHECK(glsl.out.find("softShadow") == std::string::npos);
     CHECK(run(scratch, "effects --size 0x5 " + scene).code == 2);
+}
+
+TEST_CASE("bench effects --quick prints two lines of JSON a twin") {
+    const Scratch scratch;
+    const Ran ran = run(scratch, "bench effects --quick");
+    REQUIRE(ran.code == 0);
+    CHECK(ran.err == "");
+    std::map<std::string, int> lines;
+    std::istringstream text(ran.out);
+    for (std::string line; std::getline(text, line);) {
+        CAPTURE(line);
+        const nlohmann::json json = nlohmann::json::parse(line);
+        ++lines[json["figure"]];
+        if (json["figure"] == "about") continue;
+        CHECK(json["width"] == 64);
+        CHECK(json["rounds"] == 5);
+        CHECK(json["pixels_differ"] == 0);
+    }
+    CHECK(lines == std::map<std::string, int>{{"about", 1}, {"effects", 3}, {"general", 3}});
 }
 
 TEST_CASE("bench render --quick prints a line of JSON a figure") {

@@ -19,7 +19,7 @@ vec3 litBy(int i, Surface s, vec3 direction) {
 vec3 lit(Surface s, vec3 direction) {
     vec3 sum = vec3(0.0);
 #ifdef ONE_LIGHT
-    sum += litBy(0, s, direction);  // a loop of one turn is not taken for what it is
+    sum += litBy(0, s, direction);  // no loop of one turn, as in fragment.glsl
 #else
     for (int i = frame.pass.x; i < LIGHTS; ++i) {
         if (i >= frame.pass.y) break;

@@ -139,18 +139,18 @@ std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) 
     if (sizes.lights == 1) text += "#define ONE_LIGHT\n";
     if (grid) text += "#define GRID\n";
     else text += define("LEAVES", sizes.leaves) + define("BRANCHES", sizes.branches) + define("MATERIALS", sizes.materials);
-    bool materials = false, normals = counted;
+    bool materials = false, shaded = counted;
     for (const Plan::Called& c : plan.called) {
         if (!c.effect->ofPicture()) continue;
         std::string name = fileNameOf(*c.effect);
         std::ranges::transform(name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
         text += fmt::format("#define EFFECT_{} {}\n", name, numberOf(*c.effect));
         // What stands at a surface may ask for its normal.
-        normals |= !c.effect->at.empty() && c.effect->at != "air" && c.effect->at != "film";
+        shaded |= !c.effect->at.empty() && c.effect->at != "air" && c.effect->at != "film";
         materials |= std::ranges::any_of(c.effect->keys, [](const EffectKey& key) { return key.carrier == Carrier::material; });
     }
     if (materials) text += "#define MATERIAL_EXTRA\n";
-    if (normals) text += "#define NORMALS\n";
+    if (shaded) text += "#define SHADED\n";
     if (sizes.turned) text += "#define TURNED\n";
     if (sizes.carved) text += "#define CARVED\n";
     if (counted) text += "#define COUNTED\n";

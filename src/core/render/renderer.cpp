@@ -141,13 +141,13 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
         if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
-    Composed text = compose(variant, tree, plan_, choice_, ready.packed, ready.grid);
-    if (variant == Variant::plain && slower_.contains(text.text)) {
+    const Composed* text = &compose(variant, tree, plan_, choice_, ready.packed, ready.grid);
+    if (variant == Variant::plain && slower_.contains(text->text)) {
         const Choice general{everyEffect(), {}};
         plan_ = makePlan(scene, tree, general);
-        text = compose(variant, tree, plan_, general, ready.packed, ready.grid);
+        text = &compose(variant, tree, plan_, general, ready.packed, ready.grid);
     }
-    ready.program = program(variant, text, ready.grid, ready.why);
+    ready.program = program(variant, *text, ready.grid, ready.why);
     if (!ready.program) return ready;
     glUseProgram(ready.program->name);
     if (ready.grid) grid.buffers.bind(*ready.program);

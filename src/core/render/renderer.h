@@ -71,7 +71,7 @@ public:
     void preferGeneral(const Scene& scene) { slower_.insert(textOf(scene)); }
     bool prefersGeneral(const Scene& scene) const { return slower_.contains(textOf(scene)); }
     /// Another shader library than the program's own: a test's.
-    void setLibrary(Texts texts) { library_ = std::move(texts); }
+    void setLibrary(Texts texts) { library_ = std::move(texts), composed_.clear(); }
 
     /// Draws the scene into picture(). Returns why it could not, or nothing. The last picture stays then, and also where this
     /// one was put off.
@@ -114,7 +114,7 @@ private:
     enum class Variant { plain, counted, evaluate, develop };
 
     Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
-    Composed compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const;
+    const Composed& compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const;
     bool usesGrid(const Tree& tree) const;
     const Program* program(Variant variant, const Composed& composed, bool grid, std::string& why);
     std::string develop(const Ready& ready);
@@ -128,12 +128,12 @@ private:
         std::string text;
         Program program;
     };
-    /// What was stripped, so that a frame like the last does not do it again.
-    struct Stripped {
+    /// What was put together, and from what, so that a frame like the last does not do it again.
+    struct Known {
         std::string from;
-        Composed to;
+        Composed text;
     };
-    mutable std::list<Stripped> stripped_;  // the last used first
+    mutable std::list<Known> composed_;  // the last used first
     std::list<Cached> programs_;      // the last used first
     std::unique_ptr<Compiler> compiler_;
     std::string awaited_;             // the text of the program that the last picture was put off for; empty: it was not

@@ -2,6 +2,8 @@
 #include "core/render/renderer.h"
 #include "core/render/strip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace mb {
@@ -25,22 +27,26 @@ bool Renderer::usesGrid(const Tree& tree) const {
     return evaluation_ == Evaluation::grid || tree.leaves.size() > kStraightLeaves;
 }
 
-Composed Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const {
+const Composed& Renderer::compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const {
     const Sizes sizes{packed.leaves.size(), packed.branches.size(), packed.materials.size(), packed.lights.size(), !grid || isTurned(tree),
                       isCarved(tree)};
-    Texts texts = library_;
-    if (variant != Variant::develop) texts["scene.glsl"] = grid ? gridGlsl(tree, choice.on) : sceneGlsl(tree);
-    putEffects(texts, plan);
     const std::string_view story = variant == Variant::evaluate ? "evaluate.glsl" : variant == Variant::develop ? "develop.glsl" : "fragment.glsl";
-    Composed whole = resolve(texts, story, head(plan, sizes, variant == Variant::counted, grid));
-    if (const auto known = std::ranges::find(stripped_, whole.text, &Stripped::from); known != stripped_.end()) {
-        stripped_.splice(stripped_.begin(), stripped_, known);
+    const std::string above = head(plan, sizes, variant == Variant::counted, grid);
+    std::string scene;
+    if (variant != Variant::develop) scene = grid ? gridGlsl(tree, choice.on) : sceneGlsl(tree);
+
+    // Of what is above the story the switches say which effects are in it: with the scene's own text they say it all.
+    std::string from = fmt::format("{}\n{}{}", story, above, scene);
+    if (const auto known = std::ranges::find(composed_, from, &Known::from); known != composed_.end()) {
+        composed_.splice(composed_.begin(), composed_, known);
     } else {
-        Composed to = stripped(whole);
-        stripped_.push_front({std::move(whole.text), std::move(to)});
-        if (stripped_.size() > kMostPrograms) stripped_.pop_back();
+        Texts texts = library_;
+        texts["scene.glsl"] = std::move(scene);
+        putEffects(texts, plan);
+        composed_.push_front({std::move(from), stripped(resolve(texts, story, above))});
+        if (composed_.size() > kMostPrograms) composed_.pop_back();
     }
-    return stripped_.front().to;
+    return composed_.front().text;
 }
 
 std::string Renderer::textOf(const Scene& scene) const {
