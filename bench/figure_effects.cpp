@@ -94,7 +94,7 @@ void compare(Bench& bench, const TwinRow& row) {
     const glm::ivec2 size = bench.options.size;
     Json line = lineOf(bench, "effects", row);
     Twin twin(row, scene, size);
-    if (!twin.fault().empty()) return skip(bench, line, twin.fault());
+    if (const std::string fault = twin.fault(); !fault.empty()) return skip(bench, line, fault);
     Renderer special, general;
     general.choose({everyEffect(), {}});
     std::string why;

@@ -27,7 +27,7 @@ public:
     /// Compiles the shader and packs its numbers, which are the renderer's own, in the same blocks.
     Twin(const TwinRow& row, const Scene& scene, glm::ivec2 size);
     /// Why it cannot draw, or nothing.
-    const std::string& fault() const { return program_.log; }
+    std::string fault() const { return program_.usable() ? std::string() : program_.log; }
     /// Draws a frame, its blocks filled anew, to the last pixel. There is one pass, and nothing is added up.
     void draw();
     const Targets& picture() const { return targets_; }

@@ -69,7 +69,7 @@ void main() {
     for (int bounce = 0; bounce <= reflections(); ++bounce)
         if (!follow(bounce, ray, color, weight)) break;
 #else
-    follow(0, ray, color, weight);  // no loop of one turn: software OpenGL keeps it, at a third of a picture
+    follow(0, ray, color, weight);  // no loop of one turn: software OpenGL keeps it, at a quarter of the time
 #endif
 
     if (cut_short) outcome.state = UNDECIDED;

@@ -46,7 +46,8 @@ std::string gridGlsl(const Tree& tree, const EffectSet& chosen = {});
 /// every other place the statements of the effects in the plan, in the order of the table.
 void putEffects(Texts& io_texts, const Plan& plan);
 
-/// The definitions above a shader: array sizes, and the switches of the effects in the plan, each the number of its row.
+/// The definitions above a shader: array sizes, the switches of the effects in the plan, each the number of its row, and what else
+/// is not in the text where it is not needed: loops over lights, turns of lights, normals.
 struct Sizes {
     std::size_t leaves, branches, materials, lights;
     bool turned = true;  // some leaf or operator has other axes than its space
