@@ -17,7 +17,7 @@ struct Node {
 struct Material {
     vec4 color;     // w: Ka
     vec4 diffuse;   // w: Kd
-    vec4 unread[2];
+    vec4 unread[3];
 };
 struct Frame {
     vec4 right, up, forward, picture, reach, background;

@@ -18,7 +18,7 @@ struct Material {
     vec4 color;     // w: Ka
     vec4 color2;    // w: Kd
     vec4 phong;     // Ks, Kr, C; w: 1 for fields
-    vec4 unread;
+    vec4 unread[2];
 };
 struct Frame {
     vec4 right, up, forward, picture, reach, background;

@@ -16,7 +16,7 @@ struct Node {
 };
 struct Material {
     vec4 color;     // w: Ka
-    vec4 unread[3];
+    vec4 unread[4];
 };
 struct Frame {
     vec4 right, up, forward, picture, reach, background;

@@ -14,13 +14,13 @@ struct Material {
     vec4 color;     // w: Ka
     vec4 color2;    // w: Kd
     vec4 phong;     // Ks, Kr, C; w: the pattern
-    vec4 extra;     // the numbers of the keys that effects bring, as in the other records
+    mat2x4 extra;   // the numbers of the keys that effects bring, as in the other records
 };
 
 struct Light {
     vec4 position;  // relative to the eye
     vec4 color;     // times the intensity
-    vec4 extra;
+    mat2x4 extra;
 };
 
 struct Frame {
@@ -36,8 +36,8 @@ struct Frame {
     vec4 box_hi;
     ivec4 grid_size;  // coarse cells; items of the list of what has no bounds
     ivec4 pass;       // the first light of this pass and the one after its last; 1 for the pass that adds the ambient light; leaves and operators in all
-    vec4 world_extra;
-    vec4 render_extra;
+    mat2x4 world_extra;
+    mat2x4 render_extra;
     ivec4 counted;    // the number of the row whose uses are counted
 };
 
@@ -46,7 +46,7 @@ layout(std140) uniform FrameBlock { Frame frame; };
 // Records of thousands of objects: vec4s of one buffer texture, the leaves, the operators, then the materials.
 uniform samplerBuffer records;
 const int NODE_TEXELS = 5;
-const int MATERIAL_TEXELS = 4;
+const int MATERIAL_TEXELS = 5;
 vec4 recordTexel(int i) { return texelFetch(records, i); }
 Node recordAt(int record) {
     int i = record * NODE_TEXELS;
@@ -55,7 +55,7 @@ Node recordAt(int record) {
 Node leafRecord(int leaf) { return recordAt(leaf); }
 Material materialRecord(int material) {
     int i = frame.pass.w * NODE_TEXELS + material * MATERIAL_TEXELS;
-    return Material(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2), recordTexel(i + 3));
+    return Material(recordTexel(i), recordTexel(i + 1), recordTexel(i + 2), mat2x4(recordTexel(i + 3), recordTexel(i + 4)));
 }
 #else
 layout(std140) uniform LeafBlock { Node leaves[LEAVES]; };

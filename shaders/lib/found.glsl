@@ -5,12 +5,12 @@ struct Look {
     vec4 color;  // w: Ka
     vec4 phong;  // Kd, Ks, Kr, C
 #ifdef MATERIAL_EXTRA
-    vec4 extra;
+    mat2x4 extra;
 #endif
 };
 Look mixed(Look a, Look b, float share) {
 #ifdef MATERIAL_EXTRA
-    return Look(mix(a.color, b.color, share), mix(a.phong, b.phong, share), mix(a.extra, b.extra, share));
+    return Look(mix(a.color, b.color, share), mix(a.phong, b.phong, share), a.extra * (1.0 - share) + b.extra * share);
 #else
     return Look(mix(a.color, b.color, share), mix(a.phong, b.phong, share));
 #endif

@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-    std::string scene, size = "640x360";
+    std::string scene, size = "320x180";
     std::vector<std::string> settings;
     int rounds = 5;
     bool json = false, objects = false, glsl = false;

@@ -10,7 +10,8 @@ namespace mb {
 namespace {
 
 constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerV;
-constexpr std::size_t kRecords = 8;  // a row names at most
+constexpr std::size_t kRecords = 8;         // a row names at most
+constexpr glm::ivec2 kPricedSize{240, 135};  // small, so that one draw is not long
 
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
@@ -111,7 +112,7 @@ bool isStale(const Ui& ui) { return ui.priced_revision != ui.editor.revision(); 
 void begin(Ui& ui, bool records) {
     const Editor& editor = ui.editor;
     PictureLedger::Plan plan;
-    plan.records = kRecords, plan.effects = !records, plan.records_too = records;
+    plan.size = kPricedSize, plan.rounds = 3, plan.records = kRecords, plan.effects = !records, plan.records_too = records;
     ui.picture.ledger.emplace(editor.scene(), editor.camera(), plan), ui.picture.pricing = true;
     ui.motion_ledger.reset(), ui.pricing_motion = false;
     if (!records && makeTree(editor.scene()).fault.empty() && PhysicsWorld(editor.scene()).stages().has(Stage::flight))
@@ -138,6 +139,8 @@ void drawEffects(Ui& ui) {
         ImGui::SameLine();
         if (ui::button("Price objects and lights", "the same for each object and light: what costs and is never seen comes first")) begin(ui, true);
     }
+    const bool unfinished = ui.picture.ledger && !ui.picture.pricing && ui.picture.ledger->progress() < 1;
+    if (unfinished) ui.picture.ledger.reset(), ui.motion_ledger.reset();  // the panel was closed meanwhile
     const bool priced = ui.picture.ledger && !isStale(ui);
     if (ui.picture.ledger && isStale(ui) && !ui.picture.pricing) ui::remark("The scene has changed since it was measured.");
     if (!priced && ui.called_revision != editor.revision() && !editor.playing()) {
@@ -145,10 +148,15 @@ void drawEffects(Ui& ui) {
         plan.records = kRecords;
         ui.called = PictureLedger(editor.scene(), editor.camera(), plan).effects(), ui.called_revision = editor.revision();
     }
-    const PictureLedger::Plan drawn;
-    const double pixels = static_cast<double>(drawn.size.x) * drawn.size.y;
+    const double pixels = static_cast<double>(kPricedSize.x) * kPricedSize.y;
     if (priced && !ui.picture.ledger->records().empty()) return recordTable(ui, ui.picture.ledger->records(), pixels);
     const std::vector<EffectPrice>& rows = priced ? ui.picture.ledger->effects() : ui.called;
+    if (priced && ui.picture.ledger->saved().measured) {
+        const Price& saved = ui.picture.ledger->saved();
+        ui::remark(fmt::format("A frame of {}x{} takes {:.1f} ms; with everything there is in its program, {:.1f} ms.{}", kPricedSize.x, kPricedSize.y,
+                               saved.frame_ms - saved.ms, saved.frame_ms,
+                               ownIsSlower(saved) ? " The scene's own program measured slower and is dropped for that one." : ""));
+    }
     ui::heading("Called for");
     effectTable(ui, rows, true, pixels);
     ui::heading("Left out: what its code would cost in the program");

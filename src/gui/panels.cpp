@@ -165,6 +165,7 @@ void drawInterface(Ui& ui) {
     layOut(ui);
     for (std::size_t i = 0; i < entries().size(); ++i)
         if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
+    if (!ui.isOpen("Effects")) ui.picture.pricing = ui.pricing_motion = false;  // nobody waits for it
     drawStatusBar(ui);
     drawMessage(ui);
     drawQuestion(ui);

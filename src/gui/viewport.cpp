@@ -145,7 +145,7 @@ void Viewport::count(const Scene& scene, const Camera& camera, PictureState& sta
                                each(c.evaluations.primary), each(c.evaluations.normal), asked, c.pixels.undecided, size.x * size.y, undecided);
 }
 
-/// As much of the ledger as a frame has time for, while the picture is at rest.
+/// Some draws of the ledger, whole ones but small, while the picture is at rest.
 void Viewport::fillLedger(PictureState& state) {
     if (!state.pricing || !state.ledger || !refined_ || put_off_) return;
     const double start = nowMs();

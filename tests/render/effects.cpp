@@ -29,7 +29,7 @@ struct Switch {
 const Switch kOwn[] = {
     {"checker", [](Scene& s) { s.materials[0].pattern = Pattern::checker; }},
     {"blend", [](Scene& s) { s.objects[2].numbers[0] = 0.2; }},
-    {"ambient occlusion", [](Scene& s) { extra(s.render.extra, "ambient occlusion") = 0.8, extra(s.render.extra, "ambient occlusion", 1) = 5; }},
+    {"ambient occlusion", [](Scene& s) { extra(s.render.extra, "ambient occlusion") = 0.8, extra(s.render.extra, "ambient occlusion", 1) = 5; }, "hard shadow"},
     {"light", [](Scene& s) { s.lights.push_back({"point", {3, 5, 2}, {1, 0.9, 0.8}, 0.6}); }},
     {"hard shadow", [](Scene& s) { s.render.shadow_steps = 256; }, "light"},
     {"soft shadow", [](Scene& s) { s.lights.push_back({"lamp", {-4, 4, 3}, {0.7, 0.8, 1}, 0.5}), extra(s.lights.back().extra, "soft shadow") = 1.5,

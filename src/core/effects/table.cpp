@@ -61,6 +61,10 @@ constexpr EffectKey kEmissionKeys[] = {{Carrier::material, "emission", "", "ligh
 constexpr EffectKey kFogKeys[] = {{Carrier::world, "fog", "1/m", "how fast light fades into the background: 1/e is left after 1/fog metres", 0, 1e3, 0, 0.3, 0, "worldFog"}};
 constexpr EffectKey kToneKeys[] = {{Carrier::render, "exposure", "", "of the film, which bright colors never saturate; 0: colors above 1 are cut", 0, 1e6, 0, 8, 0, "renderExposure"}};
 
+/// Its rays have the shadows' budget of steps.
+void ambientCalls(const Effect& effect, const Scene& scene, const Tree& tree, Calls& out) {
+    if (scene.render.shadow_steps > 0) amountCalls(effect, scene, tree, out);
+}
 void lightCalls(const Effect&, const Scene& scene, const Tree& tree, Calls& out) {
     addLights(scene, tree, out, [](const Light& l) { return fmt::format("intensity:{}", l.intensity); });
 }
@@ -109,7 +113,7 @@ constexpr Effect kPicture[] = {
     {"grid", "cells that keep the part of the scene that matters in them", gridCalls, ""},
     {"checker", "a pattern of fields fixed to the object", checkerCalls, "points looked up"},
     {"blend", "rounded seams that carry the colors of both sides", blendCalls, "seams looked up"},
-    {"ambient occlusion", "ambient light blocked by what is near: short rays from each point", amountCalls, "points that sent rays", "around", "around *= openness(s);", kAoKeys},
+    {"ambient occlusion", "ambient light blocked by what is near: short rays from each point", ambientCalls, "points that sent rays", "around", "around *= openness(s);", kAoKeys},
     {"emission", "surfaces with a light of their own", amountCalls, "points shaded", "around", "around += emitted(s);", kEmissionKeys},
     {"hard shadow", "a marched ray to each light that is a point, from each place that faces it", shadowCalls, "rays", "shadow", "clear *= hardShadow(s, i);"},
     {"soft shadow", "many marched rays to each light that has a size", shadowCalls, "points that sent rays", "shadow", "clear *= softShadow(s, i);", kSoftShadowKeys},
@@ -120,6 +124,15 @@ constexpr Effect kPicture[] = {
     {"samples", "several rays a pixel, which smooth its edges", sampleCalls, ""},
     {"tone mapping", "a film that bright colors never saturate", amountCalls, "", "film", "c = developed(c);", kToneKeys},
 };
+
+constexpr bool fits(Carrier carrier) {
+    std::size_t keys = 0;
+    for (const Effect& effect : kPicture)
+        for (const EffectKey& key : effect.keys) keys += key.carrier == carrier;
+    return keys <= Extra().size();
+}
+static_assert(fits(Carrier::world) && fits(Carrier::render) && fits(Carrier::light) && fits(Carrier::material),
+              "a record's Extra (core/scene/scene.h) has no room for so many keys");
 
 }  // namespace
 

@@ -12,11 +12,15 @@
 namespace mb {
 namespace {
 
-glm::vec4 asVec4(const Extra& extra) { return {extra[0], extra[1], extra[2], extra[3]}; }
+GpuExtra gpuExtra(const Extra& extra) {
+    GpuExtra packed;
+    for (std::size_t i = 0; i < extra.size(); ++i) packed[i / 4][static_cast<int>(i % 4)] = static_cast<float>(extra[i]);
+    return packed;
+}
 glm::vec4 with(glm::dvec3 v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 GpuMaterial packMaterial(const Material& m) {
-    return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}, asVec4(m.extra)};
+    return {with(m.color, m.ka), with(m.color2, m.kd), {m.ks, m.kr, m.c, m.pattern == Pattern::checker ? 1 : 0}, gpuExtra(m.extra)};
 }
 
 GpuNode packNode(glm::dvec3 position, double w, const glm::dmat3& rotation, const LeafNumbers& k, double object, std::ptrdiff_t row) {
@@ -66,7 +70,7 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
         packed.branches.push_back(packNode(branch.warps > 0 ? branch.position : branch.position - origin, branch.blend, branch.rotation,
                                            branch.numbers, 0, branch.op - operators().data()));
     for (const Light& light : scene.lights)
-        packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1), asVec4(light.extra)});
+        packed.lights.push_back({with(light.pos - origin, 1), with(light.color * light.intensity, 1), gpuExtra(light.extra)});
     return packed;
 }
 
@@ -83,7 +87,7 @@ GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size, in
     frame.reach = {knobs.march_epsilon, knobs.max_distance, knobs.normal_epsilon, 0};
     frame.background = with(scene.world.background, 1);
     frame.limits = {knobs.march_steps, knobs.shadow_steps, bounces, knobs.show_undecided};
-    frame.world_extra = asVec4(scene.world.extra), frame.render_extra = asVec4(knobs.extra);
+    frame.world_extra = gpuExtra(scene.world.extra), frame.render_extra = gpuExtra(knobs.extra);
     frame.counted = glm::ivec4{-1};
     return frame;
 }

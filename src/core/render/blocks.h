@@ -11,21 +11,24 @@
 
 namespace mb {
 
+using GpuExtra = std::array<glm::vec4, 2>;
 struct GpuNode {
     glm::vec4 position, numbers, x_axis, y_axis, z_axis;
 };
 struct GpuMaterial {
-    glm::vec4 color, color2, phong, extra;
+    glm::vec4 color, color2, phong;
+    GpuExtra extra;
 };
 struct GpuLight {
-    glm::vec4 position, color, extra;
+    glm::vec4 position, color;
+    GpuExtra extra;
 };
 struct GpuFrame {
     glm::vec4 right, up, forward, picture, reach, background;
     glm::ivec4 limits;
     glm::vec4 grid_corner, box_lo, box_hi;
     glm::ivec4 grid_size, pass;
-    glm::vec4 world_extra, render_extra;
+    GpuExtra world_extra, render_extra;
     glm::ivec4 counted;
 };
 

@@ -62,10 +62,10 @@ struct Resolver {
 
 /// The function through which the shader reads a key that an effect brings.
 std::string accessor(const EffectKey& key) {
-    const char number = "xyzw"[slotOf(key)];
+    const std::size_t slot = slotOf(key);
     const std::string_view type = key.whole ? "int" : "float";
     const auto body = [&](std::string_view parameter, std::string_view from) {
-        const std::string value = fmt::format("{}.{}", from, number);
+        const std::string value = fmt::format("{}[{}].{}", from, slot / 4, "xyzw"[slot % 4]);
         return fmt::format("{} {}({}) {{ return {}; }}\n", type, key.glsl, parameter, key.whole ? "int(" + value + ")" : value);
     };
     switch (key.carrier) {

@@ -26,7 +26,7 @@ struct RecordPrice {
 class PictureLedger {
 public:
     struct Plan {
-        glm::ivec2 size{640, 360};
+        glm::ivec2 size{320, 180};
         int rounds = 5;
         std::size_t records = 8;          // the most that a row names
         bool effects = true, records_too = false;

@@ -13,9 +13,9 @@ namespace {
 class Under {
 public:
     Under(Renderer& renderer, const Variation& v) : renderer_(renderer), choice_(renderer.choice()), evaluation_(renderer.evaluation()) {
-        renderer.choose(v.choice), renderer.setEvaluation(v.evaluation);
+        renderer.choose(v.choice), renderer.setEvaluation(v.evaluation), renderer.insistOnOwn(true);
     }
-    ~Under() { renderer_.choose(choice_), renderer_.setEvaluation(evaluation_); }
+    ~Under() { renderer_.choose(choice_), renderer_.setEvaluation(evaluation_), renderer_.insistOnOwn(false); }
     Under(const Under&) = delete;
     Under& operator=(const Under&) = delete;
 

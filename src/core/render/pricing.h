@@ -58,7 +58,7 @@ private:
 /// What leaving out saves: the general program, every row in it, against the scene's own. Their pictures are the same to the bit.
 Pricing ownAgainstGeneral(const Scene& scene, const Camera& camera, glm::ivec2 size, int rounds, bool counted);
 /// Whether the scene's own program is to be dropped for the general one: it was slower in every round, by more than is worth
-/// speaking of. (Sources: what others measured of specialised shaders, docs/effects.md.)
+/// speaking of.
 bool ownIsSlower(const Price& saved);
 
 }  // namespace mb

@@ -38,7 +38,7 @@ std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 
 
 /// Where the scene has a film, the picture is drawn once more through it; else there is nothing to do.
 std::string Renderer::develop(const Ready& ready) {
-    if (!plan_.has("tone mapping")) {
+    if (std::ranges::none_of(plan_.called, [](const Plan::Called& c) { return c.effect->at == "film"; })) {
         if (developed_.size().x > 0) developed_ = {};
         return {};
     }
@@ -142,7 +142,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     }
     if (ready.why = upload(ready); !ready.why.empty()) return ready;
     const Composed* text = &compose(variant, tree, plan_, choice_, ready.packed, ready.grid);
-    if (variant == Variant::plain && slower_.contains(text->text)) {
+    if (variant == Variant::plain && !insists_ && slower_.contains(text->text)) {
         const Choice general{everyEffect(), {}};
         plan_ = makePlan(scene, tree, general);
         text = &compose(variant, tree, plan_, general, ready.packed, ready.grid);

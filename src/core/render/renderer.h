@@ -70,6 +70,8 @@ public:
     /// From now on the general program draws what this scene's own would: that measured slower (core/render/pricing.h).
     void preferGeneral(const Scene& scene) { slower_.insert(textOf(scene)); }
     bool prefersGeneral(const Scene& scene) const { return slower_.contains(textOf(scene)); }
+    /// Whether scenes are drawn by their own programs even where those measured slower: while they are priced.
+    void insistOnOwn(bool insists) { insists_ = insists; }
     /// Another shader library than the program's own: a test's.
     void setLibrary(Texts texts) { library_ = std::move(texts), composed_.clear(); }
 
@@ -143,6 +145,7 @@ private:
     GLint block_bytes_ = 0;
     Evaluation evaluation_ = Evaluation::automatic;
     Choice choice_;
+    bool insists_ = false;
     std::set<std::string> slower_;    // texts of programs that measured slower than the general ones
     Texts library_ = shaderLibrary();
     struct GridOnGpu {

@@ -60,10 +60,12 @@ std::vector<Line> chosen(std::string_view text) {
             const bool of_driver = word.starts_with("GL_");
             open.push_back({of_driver, of_driver || defined.contains(word) == name.has_value()});
             if (!of_driver || !active) continue;
-        } else if (behind(line, "#else") && !drivers) {
+        } else if (line.starts_with("#if")) {
+            open.push_back({true, true});  // a condition that only the driver can tell
+        } else if (behind(line, "#else") && !open.empty() && !drivers) {
             open.back().taken = !open.back().taken;
             continue;
-        } else if (behind(line, "#endif")) {
+        } else if (behind(line, "#endif") && !open.empty()) {
             open.pop_back();
             if (!drivers) continue;
         }
@@ -85,8 +87,9 @@ struct Item {
 std::string_view declaredName(std::string_view head) {
     if (const auto definition = behind(head, "#define ")) return wordAt(*definition, 0);
     if (head.starts_with('#') || head.starts_with("layout") || head.starts_with("uniform") || head.starts_with("precision")) return {};
-    const std::size_t end = head.starts_with("struct ") ? head.find('{') : head.find_first_of("(=;[{");
-    if (end == head.npos || end == 0) return {};
+    const std::size_t end = head.starts_with("struct ") ? head.find('{') : head.find_first_of("(=;[{,");
+    if (end == head.npos || end == 0 || head[end] == '[' || head[end] == ',') return {};
+    if (head[end] == '=' && head.find(',') != head.npos && head.find('(') == head.npos) return {};
     std::size_t last = head.find_last_not_of(' ', end - 1);
     if (last == head.npos) return {};
     std::size_t first = last;
@@ -111,6 +114,7 @@ std::vector<Item> itemsOf(const std::vector<Line>& lines) {
                 more = !text.starts_with('#') && (depth > 0 || last == text.npos || (text[last] != '}' && text[last] != ';'));
             }
             item.last = i;
+            if (lines[item.last - 1].text.starts_with('}') && code(lines[item.last - 1].text).size() > 2) item.name = {};  // a structure and a variable of it
         }
         i = item.last;
         items.push_back(item);
@@ -118,7 +122,7 @@ std::vector<Item> itemsOf(const std::vector<Line>& lines) {
     return items;
 }
 
-/// Every word of the item's code but its own name at its head.
+/// Every word of the item's code.
 void addWords(const std::vector<Line>& lines, const Item& item, std::vector<std::string_view>& out) {
     for (std::size_t i = item.first; i < item.last; ++i) {
         const std::string_view text = code(lines[i].text);
@@ -151,6 +155,7 @@ void keepReachable(const std::vector<Line>& lines, std::vector<Item>& items) {
 }  // namespace
 
 Composed stripped(const Composed& composed) {
+    if (composed.text.find("/*") != std::string::npos || composed.text.find("\\\n") != std::string::npos) return composed;  // not this style
     const std::vector<Line> lines = chosen(composed.text);
     std::vector<Item> items = itemsOf(lines);
     keepReachable(lines, items);

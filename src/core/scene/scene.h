@@ -23,7 +23,7 @@ struct ObjectId {
 };
 
 /// The numbers of the keys that rows of the table of effects bring to a record (core/effects/effect.h), in the table's order.
-using Extra = std::array<double, 4>;
+using Extra = std::array<double, 8>;
 enum class Carrier { world, render, light, material };
 /// Those numbers where a file says nothing.
 Extra initialExtra(Carrier carrier);
