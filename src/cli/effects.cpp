@@ -135,7 +135,7 @@ void run(const Options& options, const Common& common) {
     std::string text = fmt::format("{}: {}x{}, {:.2f} evaluations of the scene's distance a pixel, drawn by {}\n", options.scene, size.x, size.y,
                                    static_cast<double>(measured.counts.evaluations.total()) / pixels, renderer.rendererName());
     text += savedLine(all.picture.saved()) + pictureTable(scene, all, pixels);
-    text += all.moves ? motionTable(scene, all) : "\nTHE PHYSICS: no body, no step\n";
+    text += all.moves ? motionTable(scene, all) : fmt::format("\nTHE PHYSICS: no body calls for a step; all {} stages are left out\n", all.motion.rows().size());
     if (options.objects) text += recordTable(scene, all, pixels);
     writeText("-", text);
 }

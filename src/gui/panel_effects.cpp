@@ -17,9 +17,16 @@ void cell(const std::string& text) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
 }
+/// The last column takes what is left.
 void heads(std::initializer_list<const char*> names) {
-    for (const char* name : names) ImGui::TableSetupColumn(name);
+    for (const char* const* name = names.begin(); name != names.end(); ++name)
+        ImGui::TableSetupColumn(*name, name + 1 == names.end() ? ImGuiTableColumnFlags_WidthStretch : 0);
     ImGui::TableHeadersRow();
+}
+
+void wrappedCell(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", text.c_str());
 }
 
 /// Shows the record where it can be changed.
@@ -41,8 +48,11 @@ void records(Ui& ui, const Scene& scene, const std::vector<Because>& because, in
     ImGui::TableNextColumn();
     for (std::size_t i = 0; i < because.size(); ++i) {
         ImGui::PushID(row * static_cast<int>(kRecords) + static_cast<int>(i));
+        const std::string name = describe(scene, because[i]);
+        const float width = ImGui::CalcTextSize(name.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
         if (i > 0) ImGui::SameLine();
-        if (ui::button(describe(scene, because[i]).c_str(), "shows the record")) show(ui, because[i]);
+        if (i > 0 && ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+        if (ui::button(name.c_str(), "shows the record")) show(ui, because[i]);
         ImGui::PopID();
     }
 }
@@ -69,7 +79,7 @@ void effectTable(Ui& ui, const std::vector<EffectPrice>& rows, bool called, doub
         if (ImGui::IsItemHovered()) ui::tip(row.effect->tip);
         priceCells(row.price, pixels);
         if (called) records(ui, ui.editor.scene(), row.because, static_cast<int>(numberOf(*row.effect)));
-        else cell(row.price.note.empty() ? std::string(row.effect->tip) : fmt::format("{}; {}", row.effect->tip, row.price.note));
+        else wrappedCell(row.price.note.empty() ? std::string(row.effect->tip) : fmt::format("{}; {}", row.effect->tip, row.price.note));
     }
     ImGui::EndTable();
 }
