@@ -1,4 +1,4 @@
-// What the ledger says of each stage.
+// What the rows of the physics say of a scene, and the ledger of each stage.
 #include "physics/ledger.h"
 #include "scenes.h"
 
@@ -85,4 +85,35 @@ TEST_CASE("the ledger counts the bodies that fall out of the world without a sta
     MotionLedger ledger(s, {.steps = 120, .rounds = 1});
     while (ledger.step()) {}
     CHECK(priceOf(ledger, Stage::static_contacts).lost == 3);
+}
+
+TEST_CASE("the rows of the physics stand in the order of the stages, and name the records that call") {
+    REQUIRE(motionEffects().size() == static_cast<std::size_t>(Stage::count));
+    Scene s = meeting(0.4);
+    s.objects[1].friction = 0.25, s.objects[1].spin = {0, 1, 0};
+    s.objects[2].friction = s.objects[3].friction = 0;
+    const Tree none;
+    for (std::size_t i = 0; i < motionEffects().size(); ++i) {
+        const Effect& row = motionEffects()[i];
+        CHECK(row.stage == static_cast<Stage>(i));
+        CHECK(row.ofMotion());
+        CHECK(!row.tip.empty());
+        CHECK(!row.counts.empty());
+        Calls calls(10);
+        row.calls(row, s, none, calls);
+        REQUIRE(calls.any());
+        if (row.stage == Stage::friction) {
+            REQUIRE(calls.found().size() == 1);  // neither the world's, which all bodies overrule, nor a 0
+            CHECK(calls.found()[0].index == 1);
+            CHECK(calls.found()[0].what == "friction:0.25");
+        }
+        if (row.stage == Stage::restitution) CHECK(calls.found()[0].record == Because::Record::world);
+        if (row.stage == Stage::static_contacts) CHECK(calls.found()[0].what == "type:box");
+        if (row.stage == Stage::spin) CHECK(calls.found()[0].what == "spin:0,1,0");
+    }
+    // Of two bodies alone a product needs both.
+    s.objects.erase(s.objects.begin());
+    CHECK(!calledFor(s).has(Stage::friction));
+    s.objects[1].friction.reset();
+    CHECK(calledFor(s).has(Stage::friction));
 }

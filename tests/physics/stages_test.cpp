@@ -277,32 +277,3 @@ TEST_CASE("a sleeping world steps nothing but the time") {
     a.step();
     CHECK(a.counts() != before);
 }
-
-TEST_CASE("the rows of the physics stand in the order of the stages, and name the records that call") {
-    REQUIRE(motionEffects().size() == kStages);
-    Scene s = switched({});
-    s.objects[2].friction = 0.25;
-    s.objects[3].friction = 0, s.objects[3].hidden = false;
-    const Tree none;
-    for (std::size_t i = 0; i < kStages; ++i) {
-        const Effect& row = motionEffects()[i];
-        CHECK(row.stage == static_cast<Stage>(i));
-        CHECK(row.ofMotion());
-        CHECK(!row.tip.empty());
-        CHECK(!row.counts.empty());
-        Calls calls(10);
-        row.calls(row, s, none, calls);
-        REQUIRE(calls.any());
-        if (row.stage == Stage::friction) {
-            REQUIRE(calls.found().size() == 1);  // neither the world's, which both bodies overrule, nor the 0
-            CHECK(calls.found()[0].index == 2);
-            CHECK(calls.found()[0].what == "friction:0.25");
-        }
-        if (row.stage == Stage::restitution) CHECK(calls.found()[0].record == Because::Record::world);
-    }
-    // Of two bodies alone a product needs both.
-    s.objects.erase(s.objects.begin(), s.objects.begin() + 2);
-    CHECK(!calledFor(s).has(Stage::friction));
-    s.objects[1].friction.reset();
-    CHECK(calledFor(s).has(Stage::friction));
-}
