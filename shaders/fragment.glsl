@@ -3,8 +3,8 @@
 // One pixel of the picture: send a ray, march it, shade what it meets, follow its reflection.
 //
 // The program writes above this text what the scene calls for (EFFECT_… definitions and array sizes), in place of "scene.glsl"
-// the scene's own map() and nearest(), and where "#effects" stands what the effects called for do there. All positions are relative to the eye, so that a scene far from the
-// world's origin loses nothing; lengths are metres.
+// the scene's own map() and nearest(), and where "#effects" stands what the effects called for do there. All positions are
+// relative to the eye, so that a scene far from the world's origin loses nothing; lengths are metres.
 
 #include "sdf/dialect.glsl"
 #include "sdf/domains.glsl"

@@ -160,12 +160,14 @@ void Viewport::tryProgram(const Scene& scene, const Camera& camera) {
     constexpr glm::ivec2 kTrialSize{160, 90};
     constexpr int kTrialRounds = 5;
     if (!trial_) {
-        if (!why_.empty() || !tried_.insert(renderer_->textOf(scene)).second) return;
+        trial_due_ = false;
+        if (!why_.empty() || tried_.contains(renderer_->textOf(scene))) return;
         trial_ = ownAgainstGeneral(scene, camera, kTrialSize, kTrialRounds, false);
     }
     priced_ = true;
     if (!trial_->step(*renderer_)) {
         if (ownIsSlower(trial_->price())) renderer_->preferGeneral(scene);
+        tried_.insert(renderer_->textOf(scene));
         trial_.reset();
     }
     showKept();
@@ -207,11 +209,10 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     else if (last_stays) showKept();
     if (state.count_wanted) count(editor.scene(), editor.camera(), state);
     fillLedger(state);
-    if (changed) trial_.reset();
-    if (refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(editor.scene(), editor.camera());
+    if (changed) trial_.reset(), trial_due_ = true;
+    if ((trial_ || trial_due_) && refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(editor.scene(), editor.camera());
     state.compiling = put_off_ || state.count_wanted;
-    const bool tries = trial_ || (refined_ && why_.empty() && now - changed_at_ <= kTrialMs);
-    busy_ = !refined_ || state.compiling || state.pricing || tries;
+    busy_ = !refined_ || state.compiling || state.pricing || trial_ || trial_due_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.grid = renderer_->grid();
     state.refining = !refined_ && next_row_ > 0;

@@ -48,6 +48,7 @@ private:
     bool busy_ = true, refined_ = false, begun_ = false;
     std::optional<Pricing> trial_;     // of the scene's own program against the general one
     std::set<std::string> tried_;      // texts of programs that had theirs
+    bool trial_due_ = false;           // the picture has changed since a trial was thought of
     bool priced_ = false;              // the renderer's picture is the ledger's, not the one shown
     bool put_off_ = false;             // the picture wanted waits for its program; the last one is shown
     double ms_ = 0, refining_ms_ = 0, shown_ms_ = 0;  // of the last draw, of the rows so far, of the picture shown

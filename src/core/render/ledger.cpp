@@ -98,7 +98,8 @@ void PictureLedger::end(Renderer& renderer) {
     } else {
         EffectPrice& row = effects_[at_ - firstRow()];
         row.price = price;
-        if (row.called && row.effect->op && row.effect->op->blends && price.measured) row.price.note = "without it: a plain union, its blend gone too";
+        if (row.called && row.effect->op && price.measured)
+            row.price.note = row.effect->op->first_only ? "without it: the first child alone" : "without it: a plain union, without a blend";
         if (!row.called || row.effect->counts.empty()) return;
         Measured measured;
         if (renderer.measure(scene_, camera_, plan_.size, measured, row.effect).empty()) row.uses = measured.counts.uses;

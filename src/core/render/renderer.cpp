@@ -7,6 +7,7 @@
 #include <cstring>
 
 namespace mb {
+
 glm::dvec2 samplePlace(int i, int n) {
     if (n == 1) return {0, 0};
     constexpr double kPlastic = 1.32471795724474602596;

@@ -69,7 +69,6 @@ public:
     Evaluation evaluation() const { return evaluation_; }
     /// From now on the general program draws what this scene's own would: that measured slower (core/render/pricing.h).
     void preferGeneral(const Scene& scene) { slower_.insert(textOf(scene)); }
-    bool prefersGeneral(const Scene& scene) const { return slower_.contains(textOf(scene)); }
     /// Whether scenes are drawn by their own programs even where those measured slower: while they are priced.
     void insistOnOwn(bool insists) { insists_ = insists; }
     /// Another shader library than the program's own: a test's.

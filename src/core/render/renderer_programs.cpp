@@ -22,8 +22,7 @@ bool isCarved(const Tree& tree) {
 }  // namespace
 
 bool Renderer::usesGrid(const Tree& tree) const {
-    const auto grid = numberOf(effectNamed("grid"));
-    if (evaluation_ == Evaluation::straight || choice_.off[grid]) return false;
+    if (evaluation_ == Evaluation::straight) return false;
     return evaluation_ == Evaluation::grid || tree.leaves.size() > kStraightLeaves;
 }
 
