@@ -42,7 +42,7 @@ Twin::Twin(const TwinRow& row, const Scene& scene, glm::ivec2 size) : targets_(s
     const Camera& camera = scene.cameras[0];
     const Tree tree = makeTree(scene);
     packed_ = pack(scene, tree, camera.eye);
-    frame_ = packFrame(scene, camera, size, makePlan(scene, tree).bounces);
+    frame_ = packFrame(scene, camera, rasterOf(size), makePlan(scene, tree).bounces);
     frame_.reach.w = packed_.reach;
     for (OwnedBuffer& block : blocks_) {
         GLuint name = 0;

@@ -20,7 +20,7 @@ struct Material {
     vec4 unread[3];
 };
 struct Frame {
-    vec4 right, up, forward, picture, reach, background;
+    vec4 right, up, forward, picture, reach, march, background;
     ivec4 limits;   // march steps, shadow steps; w: 1 to show undecided pixels
 };
 layout(std140) uniform FrameBlock { Frame frame; };

@@ -19,7 +19,7 @@ struct Material {
     vec4 unread[4];
 };
 struct Frame {
-    vec4 right, up, forward, picture, reach, background;
+    vec4 right, up, forward, picture, reach, march, background;
     ivec4 limits;   // march steps; w: 1 to show undecided pixels
 };
 layout(std140) uniform FrameBlock { Frame frame; };

@@ -29,6 +29,7 @@ struct Frame {
     vec4 forward;     // w: metres per pixel and metre of distance, or per pixel of a parallel view
     vec4 picture;     // width, height, and the sample's place in its pixel, from the centre
     vec4 reach;       // march epsilon, max distance, normal epsilon, size of the largest thing in the scene
+    vec4 march;       // relaxation; bias of a ray that leaves a surface, in hit tolerances
     vec4 background;  // w: 1 in the pass that counts as a sample, 0 in one that adds further lights to it
     ivec4 limits;     // march steps, shadow steps, reflections planned; 1 to show undecided pixels
     vec4 grid_corner; // of the grid's first cell, relative to the eye; w: a coarse cell's size

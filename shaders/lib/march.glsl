@@ -148,7 +148,9 @@ void advance(Ray ray, float far, inout Along a, inout March march, float f, vec3
     float beyond = a.on_surface ? closeTo(ray, a, a.t + a.reach) : (2.0 + OVERSHOOT) * a.noise;
     float ahead = max(a.reach > f ? a.reach + found.z * beyond : f, close);
 #ifdef RELAXED
-    if (f >= close) ahead = max(ahead, 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * a.noise);
+    // The share of the lengthening that the knob states: 1 is the whole of it to the bit, as mix() would not be.
+    float whole = 2.0 * f / (1.0 - min(a.slope, STEEPEST_RECESSION)) - 4.0 * a.noise;
+    if (f >= close) ahead = max(ahead, frame.march.x * whole + (1.0 - frame.march.x) * ahead);
 #endif
     a.t = min(a.t + ahead, far);
     ++a.steps;

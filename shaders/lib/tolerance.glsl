@@ -6,5 +6,5 @@ float noiseAt(float travelled) { return 4.0 * 1.1920929e-7 * (travelled + frame.
 // Nearer than this to a surface, a ray stops trusting single distances and looks for a change of sign.
 float closeAt(float travelled) { return max(frame.reach.x * travelled, 4.0 * noiseAt(travelled)); }
 
-// How far a ray that leaves a surface starts from it: outside the region where it would look for a change of sign.
-float biasAt(float travelled) { return 2.0 * closeAt(travelled); }
+// How far a ray that leaves a surface starts from it: by itself outside the region where it would look for a change of sign.
+float biasAt(float travelled) { return frame.march.y * closeAt(travelled); }

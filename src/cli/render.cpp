@@ -164,9 +164,10 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     const GridWork grid = renderer.gridWork();
     const std::vector<glm::vec3> picture = renderer.readPicture();
     orDiskFault(writePng(options.out, size, renderer.readShown()));
+    const std::size_t drawn = static_cast<std::size_t>(renderer.picture().size().x) * static_cast<std::size_t>(renderer.picture().size().y);
     if (const std::size_t undecided = renderer.countUndecided(); undecided > 0 && !common.quiet)
         fmt::print(stderr, "{}: note: {} of {} pixels hold an undecided ray ({:.3f} %); --set show_undecided=1 shows them\n",
-                   options.scene, undecided, picture.size(), 100.0 * static_cast<double>(undecided) / static_cast<double>(picture.size()));
+                   options.scene, undecided, drawn, 100.0 * static_cast<double>(undecided) / static_cast<double>(drawn));
     if (aovs.empty() && options.stats.empty()) return;
 
     constexpr int kTimedFrames = 3;

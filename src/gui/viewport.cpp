@@ -84,30 +84,31 @@ bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
 }
 
 void Viewport::drawPreview(const Scene& scene, const Camera& camera) {
-    const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
+    const glm::ivec2 size = sizeWithin(full_, kFrameMs * 1e6 / ns_per_pixel_);
     if (!draw(scene, camera, size)) return;
     // A program's first frame says nothing of the next one's time.
     const bool typical = std::exchange(compiled_, renderer_->compiled()) == renderer_->compiled();
     const double ns = ms_ * 1e6 / (static_cast<double>(size.x) * size.y);
     if (typical) ns_per_pixel_ = std::clamp(0.5 * (ns_per_pixel_ + ns), 1.0, 1e7);
-    gl.BindTexture(GL_TEXTURE_2D, renderer_->shown().texture(0));
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     renderer_->present(corner_, size_);
     keepShown(corner_, size_);
-    drawn_ = size, next_row_ = 0, refined_ = false, shown_ms_ = ms_, refining_ms_ = 0;
+    drawn_ = size, next_row_ = shown_row_ = 0, refined_ = false, shown_ms_ = ms_, refining_ms_ = 0;
     // With everything in it there is nothing to refine.
-    if (size == size_ && scene.render.samples == 1) refined_ = true;
+    if (size == full_ && scene.render.samples == 1) refined_ = true;
 }
 
-/// Draws the next rows of the full picture, as many as a frame's time allows, and shows them over the preview.
+/// Draws the next rows of the full picture, as many as a frame's time allows, and shows over the preview what of it they and
+/// those below them decide: where it is enlarged, a row of the screen lies between two of it.
 void Viewport::drawTile(const Scene& scene, const Camera& camera) {
     const double pixels = kFrameMs * 1e6 / (ns_per_pixel_ * scene.render.samples);
-    const int rows = std::clamp(static_cast<int>(pixels / size_.x), 1, size_.y - next_row_);
+    const int rows = std::clamp(static_cast<int>(pixels / full_.x), 1, full_.y - next_row_);
     gl.Enable(GL_SCISSOR_TEST);
-    gl.Scissor(0, next_row_, size_.x, rows);
-    const bool drawn = draw(scene, camera, size_);
+    gl.Scissor(0, next_row_, full_.x, rows);
+    const bool drawn = draw(scene, camera, full_);
+    const int end = next_row_ + rows;
+    const int shown = (end == full_.y ? size_.y : static_cast<int>((end - 0.5) * size_.y / full_.y + 0.5)) - shown_row_;
     if (drawn) {
-        gl.Scissor(corner_.x, corner_.y + next_row_, size_.x, rows);
+        gl.Scissor(corner_.x, corner_.y + shown_row_, size_.x, shown);
         renderer_->present(corner_, size_);
     }
     gl.Disable(GL_SCISSOR_TEST);
@@ -115,18 +116,18 @@ void Viewport::drawTile(const Scene& scene, const Camera& camera) {
         refined_ = !why_.empty();
         return;
     }
-    keepShown(corner_ + glm::ivec2{0, next_row_}, {size_.x, rows});
+    keepShown(corner_ + glm::ivec2{0, shown_row_}, {size_.x, shown});
     // The rows differ in what they cost: the estimate follows quickly.
-    const double ns = ms_ * 1e6 / (static_cast<double>(size_.x) * rows * scene.render.samples);
+    const double ns = ms_ * 1e6 / (static_cast<double>(full_.x) * rows * scene.render.samples);
     ns_per_pixel_ = std::clamp(0.5 * (ns_per_pixel_ + ns), 1.0, 1e7);
-    next_row_ += rows, refining_ms_ += ms_;
-    if (next_row_ >= size_.y) refined_ = true, drawn_ = size_, shown_ms_ = refining_ms_;
+    next_row_ = end, shown_row_ += shown, refining_ms_ += ms_;
+    if (next_row_ >= full_.y) refined_ = true, drawn_ = full_, shown_ms_ = refining_ms_;
 }
 
 /// Answers what a picture takes, counted at a size that a frame has time for, once the program that counts is there.
 void Viewport::count(const Scene& scene, const Camera& camera, PictureState& state) {
     if (put_off_ || renderer_->compiling()) return;
-    const glm::ivec2 size = sizeWithin(size_, kFrameMs * 1e6 / ns_per_pixel_);
+    const glm::ivec2 size = sizeWithin(full_, kFrameMs * 1e6 / ns_per_pixel_);
     Measured measured;
     state.counts = renderer_->measure(scene, camera, size, measured);
     state.count_wanted = renderer_->putOff();
@@ -187,30 +188,36 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
         return showKept();
     }
 
+    // How many pixels are drawn is settled here, and the renderer enlarges nothing.
+    full_ = rasterOf(size, editor.scene().render.scale).drawn;
+    std::optional<Scene> unscaled;
+    if (editor.scene().render.scale != 1) unscaled = editor.scene(), unscaled->render.scale = 1;
+    const Scene& scene = unscaled ? *unscaled : editor.scene();
+
     const double now = nowMs();
     const bool changed = moved || editor.revision() != drawn_revision_, compiled = put_off_ && !renderer_->compiling();
     showKept();
     if (changed) drawn_revision_ = editor.revision(), changed_at_ = now;
     if (changed || compiled) {
-        if (editor.scene().render.samples == 1) {
-            drawPreview(editor.scene(), editor.camera());
+        if (scene.render.samples == 1) {
+            drawPreview(scene, editor.camera());
         } else {
-            Scene quick = editor.scene();
+            Scene quick = scene;
             quick.render.samples = 1;
             drawPreview(quick, editor.camera());
             refined_ = false;
         }
         if (!why_.empty()) refined_ = true;
     } else if (!refined_ && !put_off_ && now - changed_at_ > kStillMs) {
-        drawTile(editor.scene(), editor.camera());
+        drawTile(scene, editor.camera());
     }
     const bool last_stays = !why_.empty() || put_off_;
     if (last_stays && moved && !priced_) renderer_->present(corner_, size_), keepShown(corner_, size_);
     else if (last_stays) showKept();
-    if (state.count_wanted) count(editor.scene(), editor.camera(), state);
+    if (state.count_wanted) count(scene, editor.camera(), state);
     fillLedger(state);
     if (changed) trial_.reset(), trial_due_ = true;
-    if ((trial_ || trial_due_) && refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(editor.scene(), editor.camera());
+    if ((trial_ || trial_due_) && refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(scene, editor.camera());
     state.compiling = put_off_ || state.count_wanted;
     busy_ = !refined_ || state.compiling || state.pricing || trial_ || trial_due_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;

@@ -1,6 +1,6 @@
 #pragma once
 // The picture behind the panels. While something changes it is drawn as large as a frame's time allows; once nothing does,
-// it is drawn again at full size, a few rows of tiles a frame, and then not at all.
+// it is drawn again with all its pixels, a few rows of tiles a frame, and then not at all.
 #include "core/render/renderer.h"
 #include "gui/editor.h"
 #include "gui/panels.h"
@@ -42,8 +42,9 @@ private:
     std::uint64_t drawn_revision_ = 0;
     double changed_at_ = 0;            // ms
     double ns_per_pixel_ = 8000;       // of the last pictures; at first, of a scene that is not light
+    glm::ivec2 full_{0};               // pixels that the picture has when it is refined: the scene's `scale` of size_
     glm::ivec2 drawn_{0};              // the size of the preview
-    int next_row_ = 0;                 // of the refinement, in pixels from the bottom
+    int next_row_ = 0, shown_row_ = 0; // of the refinement, from the bottom: to be drawn, and to be shown on the screen
     int compiled_ = 0;                 // programs there were when a picture was last drawn
     bool busy_ = true, refined_ = false, begun_ = false;
     std::optional<Pricing> trial_;     // of the scene's own program against the general one

@@ -91,7 +91,7 @@ void PhysicsWorld::wakeAndSleep(std::span<const Contact> contacts) {
     }
 }
 
-/// Moves overlapping balls apart, without giving them velocity, a fifth of the overlap a part and not faster than
+/// Moves overlapping balls apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
 /// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
 void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
     std::vector<glm::dvec3> moved(bodies_.size(), glm::dvec3{0});
@@ -101,7 +101,7 @@ void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
             if (!bodies_[at(c.a)].awake) continue;
             const bool pair = c.b != kStatic;
             const glm::dvec3 apart = moved[at(c.a)] - (pair ? moved[at(c.b)] : glm::dvec3{0});
-            const double deep = -c.gap - 0.5 * depthOf(bodies_, c), left = 0.2 * deep - glm::dot(apart, c.normal);
+            const double deep = -c.gap - 0.5 * depthOf(bodies_, c), left = knobs_.push_out * deep - glm::dot(apart, c.normal);
             if (deep <= 0 || left <= 0) continue;
             const double ma = bodies_[at(c.a)].inverse_mass, mb = pair ? bodies_[at(c.b)].inverse_mass : 0;
             moved[at(c.a)] += (left * ma / (ma + mb)) * c.normal;
@@ -232,7 +232,8 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
     }
 }
 
-/// Counts for how long each ball that touches something has been still; without gravity only rest itself is.
+/// Counts for how long each ball that touches something has been still: slower than `sleep_speed`; without gravity only rest
+/// itself is.
 void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
     std::vector<char> touches(bodies_.size(), world_.gravity == 0), deep(bodies_.size(), 0);
     for (const Contact& c : contacts) {
@@ -240,12 +241,12 @@ void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
         touches[at(c.a)] = 1, deep[at(c.a)] |= overlaps;
         if (c.b != kStatic) touches[at(c.b)] = 1, deep[at(c.b)] |= overlaps;
     }
-    const double limit = std::min(kStillSpeed, std::fabs(world_.gravity) * h);
+    const double limit = std::min(knobs_.sleep_speed, knobs_.sleep_speed / kWeakFall * (std::fabs(world_.gravity) * h));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Body& b = bodies_[i];
         if (!b.awake) continue;
         const double speed = glm::length(b.velocity) + b.radius * glm::length(b.spin);
-        b.still = touches[i] && !deep[i] && speed <= limit ? b.still + 1 : 0;
+        b.still = touches[i] && !deep[i] && speed <= limit && knobs_.sleep_speed > 0 ? b.still + 1 : 0;
     }
 }
 

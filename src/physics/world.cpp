@@ -200,6 +200,7 @@ std::uint64_t PhysicsWorld::stateHash() const {
     StateHash hash;
     hash.add(steps_), hash.add(static_cast<std::uint64_t>(removed_));
     hash.add(knobs_.dt), hash.add(static_cast<std::uint64_t>(knobs_.substeps)), hash.add(static_cast<std::uint64_t>(knobs_.iterations));
+    hash.add(knobs_.push_out), hash.add(knobs_.sleep_speed);
     for (const Body& b : bodies_) {
         hash.add(std::uint64_t{b.object.value});
         hash.add(b.position), hash.add(b.velocity), hash.add(b.spin), hash.add(b.orientation);

@@ -18,8 +18,8 @@ namespace mb {
 inline constexpr double kTopSpeed = 1e4;       // m/s: a faster ball is slowed down to this, and noted
 inline constexpr double kTopSpin = 1e6;        // rad/s
 inline constexpr double kPushOutSpeed = 3;     // m/s: how fast an overlap is undone at most
-inline constexpr double kStillSpeed = 0.03;    // m/s, of a ball's surface: slower for kStillTime, and touching, it sleeps
-inline constexpr double kStillTime = 0.5;      // s
+inline constexpr double kStillTime = 0.5;      // s: a ball sleeps that touches something and is still for so long
+inline constexpr double kWeakFall = 0.03;      // m/s: where gravity gives less in a part, what is still is slower in proportion
 
 struct Energy {
     double kinetic = 0, potential = 0;         // J; potential is 0 at y = 0

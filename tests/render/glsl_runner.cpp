@@ -32,7 +32,7 @@ std::string mainCalling(const std::vector<std::string>& tests) {
 
 /// The picture that the tests' frame is of.
 GpuFrame testFrame() {
-    GpuFrame frame = packFrame({}, {"", {0, 0, 0}, {0, 0, -1}, 90, 0}, {64, 48}, 0);
+    GpuFrame frame = packFrame({}, {"", {0, 0, 0}, {0, 0, -1}, 90, 0}, rasterOf({64, 48}), 0);
     frame.reach.w = 1;
     frame.pass = {0, 0, 1, 0};
     return frame;

@@ -20,6 +20,9 @@ int bouncesOf(const Scene& scene, const Tree& tree) {
 
 constexpr std::int64_t kRetry = 2;  // shaders/lib/march.glsl: primary budgets for the second tries of a pixel's rays
 
+/// Evaluations a normal takes: the four of a tetrahedron, or those of central differences.
+int tapsOf(const RenderKnobs& knobs) { return knobs.normal_taps < 6 ? 4 : 6; }
+
 /// Loop iterations of one pass, each loop's last look at its condition included.
 struct Loops {
     const RenderKnobs& knobs;
@@ -27,7 +30,8 @@ struct Loops {
     std::int64_t hard_rays = 0, soft_rays = 0, ambient_rays = 0;  // to a light, and from a point
 
     std::int64_t of(int lights) const {
-        constexpr std::int64_t normal = 6, look = 1;
+        constexpr std::int64_t look = 1;
+        const std::int64_t normal = tapsOf(knobs);
         const std::int64_t ray = knobs.shadow_steps + look;
         const auto many = [&](std::int64_t rays) { return rays > 0 ? rays * (look + ray) + look : 0; };
         const std::int64_t light = look + hard_rays * ray + many(soft_rays);
@@ -77,6 +81,8 @@ Plan makePlan(const Scene& scene, const Tree& tree, const Choice& choice) {
         effect.calls(effect, scene, tree, calls);
         if (calls.any() || choice.on[i]) plan.called.push_back({&effect, calls.any() ? describe(scene, calls.found().front()) : std::string()});
     }
+
+    plan.tetrahedron = tapsOf(scene.render) == 4;
 
     // As many lights a pass as the loop budget holds.
     if (plan.has("reflection")) plan.bounces = bouncesOf(scene, tree);

@@ -33,6 +33,7 @@ struct Plan {
     };
     std::vector<Called> called;        // of the picture and the operators, in the order of the table
     int bounces = 0;                   // reflections that the largest Kr is worth following
+    bool tetrahedron = false;          // a normal takes 4 evaluations, not 6
     std::vector<LightPass> passes;     // at least one
     std::int64_t loop_iterations = 0;  // the most that any pixel of any pass can make, over all loops of the shader
     std::string refused;               // why the scene cannot be drawn; empty if it can

@@ -74,17 +74,18 @@ Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin) {
     return packed;
 }
 
-GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size, int bounces) {
+GpuFrame packFrame(const Scene& scene, const Camera& camera, const Raster& raster, int bounces) {
     const View view = viewOf(camera);
-    const double aspect = static_cast<double>(size.x) / size.y;
+    const double aspect = static_cast<double>(raster.size.x) / raster.size.y;
     const RenderKnobs& knobs = scene.render;
 
     GpuFrame frame{};
     frame.right = with(view.right * view.half * aspect, view.parallel);
     frame.up = with(view.up * view.half, 0);
-    frame.forward = with(view.forward, 2 * view.half / size.y);
-    frame.picture = {size.x, size.y, 0, 0};
+    frame.forward = with(view.forward, 2 * view.half / (static_cast<double>(raster.drawn.y) * raster.stride));
+    frame.picture = {raster.drawn.x, raster.drawn.y, 0, 0};
     frame.reach = {knobs.march_epsilon, knobs.max_distance, knobs.normal_epsilon, 0};
+    frame.march = {knobs.relaxation, knobs.bias, 0, 0};
     frame.background = with(scene.world.background, 1);
     frame.limits = {knobs.march_steps, knobs.shadow_steps, bounces, knobs.show_undecided};
     frame.world_extra = gpuExtra(scene.world.extra), frame.render_extra = gpuExtra(knobs.extra);
@@ -96,7 +97,7 @@ std::span<const BlockMember> blockMembers() {
 #define MB_AT(type, member, name) BlockMember{name, offsetof(type, member)}
     static constexpr BlockMember kMembers[] = {
         MB_AT(GpuFrame, right, "frame.right"), MB_AT(GpuFrame, up, "frame.up"), MB_AT(GpuFrame, forward, "frame.forward"),
-        MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"),
+        MB_AT(GpuFrame, picture, "frame.picture"), MB_AT(GpuFrame, reach, "frame.reach"), MB_AT(GpuFrame, march, "frame.march"),
         MB_AT(GpuFrame, background, "frame.background"), MB_AT(GpuFrame, limits, "frame.limits"), MB_AT(GpuFrame, pass, "frame.pass"),
         MB_AT(GpuFrame, grid_corner, "frame.grid_corner"), MB_AT(GpuFrame, box_lo, "frame.box_lo"), MB_AT(GpuFrame, box_hi, "frame.box_hi"),
         MB_AT(GpuFrame, grid_size, "frame.grid_size"), MB_AT(GpuFrame, world_extra, "frame.world_extra"),

@@ -1,6 +1,7 @@
 #pragma once
 // The std140 blocks of shaders/lib/blocks.glsl as C++: vec4 records only, so that both sides agree; a test asks the driver.
 #include "core/effects/plan.h"
+#include "core/render/enlarge.h"
 #include "core/sdf/tree.h"
 
 #include <glm/vec4.hpp>
@@ -24,7 +25,7 @@ struct GpuLight {
     GpuExtra extra;
 };
 struct GpuFrame {
-    glm::vec4 right, up, forward, picture, reach, background;
+    glm::vec4 right, up, forward, picture, reach, march, background;
     glm::ivec4 limits;
     glm::vec4 grid_corner, box_lo, box_hi;
     glm::ivec4 grid_size, pass;
@@ -41,8 +42,8 @@ struct Packed {
 };
 Packed pack(const Scene& scene, const Tree& tree, glm::dvec3 origin);
 
-/// The camera's basis and the knobs, for a picture of width by height pixels whose rays are reflected at most `bounces` times.
-GpuFrame packFrame(const Scene& scene, const Camera& camera, glm::ivec2 size, int bounces);
+/// The camera's basis and the knobs, for a picture of those pixels whose rays are reflected at most `bounces` times.
+GpuFrame packFrame(const Scene& scene, const Camera& camera, const Raster& raster, int bounces);
 
 /// A member of a block for the test that compares offsets: its name in GLSL and where C++ has it.
 struct BlockMember {

@@ -151,6 +151,7 @@ std::string head(const Plan& plan, const Sizes& sizes, bool counted, bool grid) 
     }
     if (materials) text += "#define MATERIAL_EXTRA\n";
     if (shaded) text += "#define SHADED\n";
+    if (plan.tetrahedron) text += "#define TETRAHEDRON\n";
     if (sizes.turned) text += "#define TURNED\n";
     if (sizes.carved) text += "#define CARVED\n";
     if (counted) text += "#define COUNTED\n";

@@ -26,9 +26,11 @@ Renderer::Renderer(std::unique_ptr<Compiler> compiler) : compiler_(std::move(com
 }
 
 std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
-    const Ready ready = prepare(scene, camera, size, Variant::plain, camera.eye);
+    const Raster raster = rasterOf(size, scene.render.scale, stride_);
+    const Ready ready = prepare(scene, camera, raster, Variant::plain, camera.eye);
     if (!ready.program) return ready.why;
-    if (picture_.size() != size) picture_ = Targets(size, kPictureAttachments);
+    if (picture_.size() != raster.drawn) picture_ = Targets(raster.drawn, kPictureAttachments);
+    size_ = size;
     picture_.clear();
     {
         const AddingUp adding;
@@ -65,8 +67,8 @@ std::vector<glm::vec3> dividedByWeight(const std::vector<float>& pixels) {
 }
 }  // namespace
 
-std::vector<glm::vec3> Renderer::readPicture() const { return dividedByWeight(picture_.read(0)); }
-std::vector<glm::vec3> Renderer::readShown() const { return dividedByWeight(shown().read(0)); }
+std::vector<glm::vec3> Renderer::readPicture() const { return enlarged(dividedByWeight(picture_.read(0)), picture_.size(), size_); }
+std::vector<glm::vec3> Renderer::readShown() const { return enlarged(dividedByWeight(shown().read(0)), picture_.size(), size_); }
 
 std::size_t Renderer::countUndecided() const {
     const std::vector<float> pixels = picture_.read(1);
@@ -80,7 +82,7 @@ std::string Renderer::evaluate(const Scene& scene, const std::vector<glm::vec3>&
     const glm::ivec2 size{kWidth, static_cast<int>((points.size() + kWidth - 1) / kWidth)};
     out.clear();
     if (points.empty()) return {};
-    const Ready ready = prepare(scene, {}, size, Variant::evaluate, {});
+    const Ready ready = prepare(scene, {}, rasterOf(size), Variant::evaluate, {});
     if (!ready.why.empty()) return ready.why;
 
     std::vector<glm::vec4> texels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4{0});
@@ -110,17 +112,18 @@ void Renderer::present(glm::ivec2 corner, glm::ivec2 size) {
     glUseProgram(present_.name);
     glActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, shown().texture(0));
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, shown().size() == size ? GL_NEAREST : GL_LINEAR);
     glUniform1i(present_.uniform("picture"), 0);
     glUniform2f(present_.uniform("corner"), static_cast<float>(corner.x), static_cast<float>(corner.y));
     glUniform2f(present_.uniform("size"), static_cast<float>(size.x), static_cast<float>(size.y));
     quad_.draw();
 }
 
-Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin) {
+Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, const Raster& raster, Variant variant, glm::dvec3 origin) {
     Ready ready;
     awaited_.clear();
     const int most = maxTargetSize();
-    if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+    if (const glm::ivec2 size = raster.drawn; size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
         ready.why = fmt::format("a picture of {}x{} pixels: each side must be between 1 and {}", size.x, size.y, most);
         return ready;
     }
@@ -129,7 +132,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     plan_ = makePlan(scene, tree, choice_);
     if (ready.why = plan_.refused; !ready.why.empty()) return ready;
     ready.packed = pack(scene, tree, origin);
-    ready.frame = packFrame(scene, camera, size, plan_.bounces);
+    ready.frame = packFrame(scene, camera, raster, plan_.bounces);
     ready.frame.reach.w = ready.packed.reach;
     ready.frame.pass.w = static_cast<int>(tree.leaves.size() + tree.branches.size());
     ready.grid = usesGrid(tree);
@@ -137,7 +140,7 @@ Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, glm:
     grid_work_ = {};
     if (variant != Variant::evaluate) through_grid_ = ready.grid;
     if (ready.grid) {
-        grid_work_ = grid.grid.follow(tree);
+        grid_work_ = grid.grid.follow(tree, scene.render.grid_scale);
         placeGrid(grid.grid, origin, ready.frame);
         if (ready.why = grid.buffers.upload(grid.grid, ready.packed); !ready.why.empty()) return ready;
     }

@@ -74,18 +74,22 @@ public:
     /// Another shader library than the program's own: a test's.
     void setLibrary(Texts texts) { library_ = std::move(texts), composed_.clear(); }
 
-    /// Draws the scene into picture(). Returns why it could not, or nothing. The last picture stays then, and also where this
+    /// From now on a picture shows every k-th pixel, along x and y, of one that is k times as wide and high (core/render/enlarge.h):
+    /// so a large picture is measured by a part of its pixels.
+    void setStride(int k) { stride_ = k; }
+
+    /// Draws the scene into picture(), which is smaller than the size asked for where the scene's `scale` says so. Returns why it could not, or nothing. The last picture stays then, and also where this
     /// one was put off.
     std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
-    /// The picture last drawn: linear RGB, the top row first.
+    /// The picture last drawn, at the size asked for: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
     /// The same as it is shown: what the scene's film makes of it, if it has one.
     std::vector<glm::vec3> readShown() const;
     const Targets& shown() const { return developed_.size() == picture_.size() ? developed_ : picture_; }
-    /// How many of its pixels are undecided: their own ray ran out of steps, or all but touched something.
+    /// How many of the pixels drawn are undecided: their own ray ran out of steps, or all but touched something.
     std::size_t countUndecided() const;
     const Targets& picture() const { return picture_; }
-    /// Draws once more with counters: the other channels, and what draw() takes; and how often the effect was used, if one is named.
+    /// Draws once more with counters: the other channels, at the size asked for, and what draw() takes; and how often the effect was used, if one is named.
     std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted = nullptr);
     /// The scene's own functions at points, in the world's coordinates.
     std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
@@ -114,7 +118,7 @@ private:
     };
     enum class Variant { plain, counted, evaluate, develop };
 
-    Ready prepare(const Scene& scene, const Camera& camera, glm::ivec2 size, Variant variant, glm::dvec3 origin);
+    Ready prepare(const Scene& scene, const Camera& camera, const Raster& raster, Variant variant, glm::dvec3 origin);
     const Composed& compose(Variant variant, const Tree& tree, const Plan& plan, const Choice& choice, const Packed& packed, bool grid) const;
     bool usesGrid(const Tree& tree) const;
     const Program* program(Variant variant, const Composed& composed, bool grid, std::string& why);
@@ -143,6 +147,8 @@ private:
     std::string name_;
     GLint block_bytes_ = 0;
     Evaluation evaluation_ = Evaluation::automatic;
+    int stride_ = 1;
+    glm::ivec2 size_{0};              // of the picture last drawn, enlarged
     Choice choice_;
     bool insists_ = false;
     std::set<std::string> slower_;    // texts of programs that measured slower than the general ones
@@ -171,7 +177,7 @@ glm::dvec2 samplePlace(int i, int n);
 template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F pass) {
     const int samples = scene.render.samples;
     for (int i = 0; i < samples; ++i) {
-        const glm::dvec2 place = samplePlace(i, samples);
+        const glm::dvec2 place = samplePlace(i, samples) / static_cast<double>(stride_);
         frame.picture.z = static_cast<float>(place.x), frame.picture.w = static_cast<float>(place.y);
         for (const LightPass& lights : plan_.passes) {
             const bool first = lights.first == 0;

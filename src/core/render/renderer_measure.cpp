@@ -32,12 +32,13 @@ void addCounts(const Targets& channels, Counts& c) {
 }  // namespace
 
 std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted) {
-    Ready ready = prepare(scene, camera, size, Variant::counted, camera.eye);
+    const Raster raster = rasterOf(size, scene.render.scale, stride_);
+    Ready ready = prepare(scene, camera, raster, Variant::counted, camera.eye);
     if (!ready.program) return ready.why;
     if (counted) ready.frame.counted.x = static_cast<int>(numberOf(*counted));
-    channels_ = Targets(size, kChannelAttachments);
+    channels_ = Targets(raster.drawn, kChannelAttachments);
     out = {};
-    const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    const std::size_t pixels = static_cast<std::size_t>(raster.drawn.x) * static_cast<std::size_t>(raster.drawn.y);
 
     // The counters of every pass that a picture takes.
     eachPass(scene, ready.frame, [&] {
@@ -62,6 +63,8 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
         c.object[i] = ray[4 * i], c.steps[i] = ray[4 * i + 1], c.state[i] = ray[4 * i + 2];
         out.counts.pixels.hit += c.state[i] == 1, out.counts.pixels.miss += c.state[i] == 0, out.counts.pixels.undecided += c.state[i] == 2;
     }
+    const auto enlarge = [&](auto& channel) { channel = enlargedByNearest(std::move(channel), raster.drawn, size); };
+    enlarge(c.depth), enlarge(c.normal), enlarge(c.object), enlarge(c.steps), enlarge(c.state);
     return {};
 }
 

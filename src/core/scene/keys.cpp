@@ -50,15 +50,23 @@ const Key<RenderKnobs> kRender[] = {
     {"max_distance", &RenderKnobs::max_distance, "m", "nothing further is seen", 1e-3, 1e6, 1, 1000, false, true},
     {"normal_epsilon", &RenderKnobs::normal_epsilon, "", "of the distance travelled: the reach of the normal's differences", 1e-6, 0.1,
      1e-5, 1e-2, false, true},
+    {"relaxation", &RenderKnobs::relaxation, "", "of the lengthening of steps where nothing looks ahead; 0: plain sphere tracing", 0, 1, 0, 1},
+    {"normal_taps", &RenderKnobs::normal_taps, "", "evaluations a normal takes: 6, or fewer: the 4 of a tetrahedron", 4, 6, 4, 6},
+    {"bias", &RenderKnobs::bias, "", "hit tolerances: so far from a surface starts a ray that leaves it", 0, 1000, 0.5, 20, false, true},
     {"shadow_steps", &RenderKnobs::shadow_steps, "", "evaluations a shadow ray may make", 0, 8192, 0, 1024},
     {"reflections", &RenderKnobs::reflections, "", "bounces", 0, 64, 0, 16},
     {"samples", &RenderKnobs::samples, "", "a pixel", 1, 256, 1, 16},
+    {"scale", &RenderKnobs::scale, "", "of the picture's width and height: drawn so much smaller, and enlarged", 0.05, 1, 0.05, 1},
+    {"grid_scale", &RenderKnobs::grid_scale, "", "the grid's cells along a side, as a multiple of what is chosen by itself", 0.1, 4, 0.1, 4, false,
+     true},
     {"show_undecided", &RenderKnobs::show_undecided, "", "tints the pixels whose rays ran out of steps"},
 };
 const Key<PhysicsKnobs> kPhysics[] = {
     {"dt", &PhysicsKnobs::dt, "s", "one step", 1e-6, 1, 1e-3, 1.0 / 30, false, true},
     {"substeps", &PhysicsKnobs::substeps, "", "parts of a step", 1, 1000, 1, 16},
     {"iterations", &PhysicsKnobs::iterations, "", "of the contact solver, a part", 1, 10'000, 1, 100, false, true},
+    {"push_out", &PhysicsKnobs::push_out, "", "the share of an overlap undone in a part", 1e-3, 1, 0.01, 1, false, true},
+    {"sleep_speed", &PhysicsKnobs::sleep_speed, "m/s", "slower for half a second, and touching, a body sleeps; 0: never", 0, 100, 0, 1},
 };
 const Key<Object> kObject[] = {
     {"name", &Object::name, "", ""},

@@ -66,10 +66,15 @@ struct RenderKnobs {
     int march_steps = 512;       // evaluations a primary or reflected ray may make
     double march_epsilon = 1e-4; // of the distance travelled: closer than this a ray looks for a change of sign
     double max_distance = 200;   // m from the eye; nothing further is seen
+    double relaxation = 1;       // of the lengthening of steps where nothing looks ahead: 0 plain sphere tracing, 1 the whole of it
     double normal_epsilon = 5e-4;  // of the distance travelled: the reach of the normal's differences
+    int normal_taps = 6;         // evaluations a normal takes: 6 central differences; fewer: the 4 of a tetrahedron, less exact
+    double bias = 2;             // hit tolerances: so far from a surface starts a ray that leaves it; too near, it meets that again
     int shadow_steps = 256;      // evaluations a shadow ray may make
     int reflections = 4;         // bounces at most
     int samples = 1;             // a pixel
+    double scale = 1;            // of the picture's width and height: drawn so much smaller, and enlarged
+    double grid_scale = 1;       // of the grid's cells along a side, a multiple of what is chosen by itself: finer takes longer to build
     bool show_undecided = false; // tints the pixels whose rays ran out of steps
     Extra extra = initialExtra(Carrier::render);
 };
@@ -78,6 +83,8 @@ struct PhysicsKnobs {
     double dt = 1.0 / 120;       // s
     int substeps = 1;
     int iterations = 10;
+    double push_out = 0.2;       // the share of an overlap undone in a part; less leaves bodies in one another for longer
+    double sleep_speed = 0.03;   // m/s, of a surface: slower than this for half a second, and touching, a body sleeps; 0: never
 };
 
 inline constexpr int kNoParent = -1, kNoMaterial = -1;

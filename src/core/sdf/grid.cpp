@@ -12,7 +12,8 @@
 namespace mb {
 namespace {
 
-constexpr double kMostCells = 32'768;      // coarse ones
+constexpr double kMostCells = 32'768;      // coarse ones, chosen by itself
+constexpr double kMostScaled = 262'144;    // and whatever the scale
 constexpr double kCellsAPart = 3;
 constexpr double kRoom = 0.05;             // of the box's size, that things may move before all is laid out anew
 
@@ -62,12 +63,12 @@ bool Grid::follows(const Tree& tree) const {
     return sameTopology(tree) && std::ranges::all_of(tree.parts, [&](const Tree::Part& part) { return samePart(tree_, tree, part); });
 }
 
-GridWork Grid::follow(const Tree& tree) {
+GridWork Grid::follow(const Tree& tree, double scale) {
     const auto from = std::chrono::steady_clock::now();
     GridWork work;
     const bool same = sameTopology(tree);
     std::vector<std::uint32_t> moved;
-    bool whole = !same;
+    bool whole = !same || scale != scale_;
     for (std::size_t i = 0; same && !whole && i < tree.parts.size(); ++i) {
         if (samePart(tree_, tree, tree.parts[i])) continue;
         moved.push_back(static_cast<std::uint32_t>(i));
@@ -76,7 +77,7 @@ GridWork Grid::follow(const Tree& tree) {
     }
     whole = whole || stale_ > items_.size() / 2 + 100'000;
     if (whole) {
-        tree_ = tree;
+        tree_ = tree, scale_ = scale;
         layOut();
         work = rebuild();
     } else {
@@ -103,7 +104,8 @@ void Grid::layOut() {
 
     glm::dvec3 extent{0};
     for (int i = 0; i < 3; ++i) extent[i] = box_.hi[static_cast<std::size_t>(i)] - box_.lo[static_cast<std::size_t>(i)];
-    const double longest = std::max({extent.x, extent.y, extent.z, 1e-6}), wanted = std::clamp(kCellsAPart * bounded, 64.0, kMostCells);
+    const double longest = std::max({extent.x, extent.y, extent.z, 1e-6});
+    const double wanted = std::min(std::clamp(kCellsAPart * bounded, 64.0, kMostCells) * scale_ * scale_ * scale_, kMostScaled);
     extent = glm::max(extent, glm::dvec3(1e-3 * longest));
     for (int i = 0; i < 3; ++i)
         box_.lo[static_cast<std::size_t>(i)] -= kRoom * extent[i], box_.hi[static_cast<std::size_t>(i)] += kRoom * extent[i];

@@ -60,9 +60,10 @@ public:
     enum class Exact { near_surfaces, everywhere };
     explicit Grid(Exact exact = Exact::near_surfaces) : exact_(exact) {}
 
-    /// Makes this the grid of `tree`: all of it where the topology or the bounds changed, else the cells that what moved can
-    /// have changed. On as many threads as the machine has; the same cells, whatever their number.
-    GridWork follow(const Tree& tree);
+    /// Makes this the grid of `tree`: all of it where the topology, the bounds or the scale changed, else the cells that what
+    /// moved can have changed. On as many threads as the machine has; the same cells, whatever their number. `scale`: of the
+    /// cells along a side, a multiple of what is chosen by itself; the values stay.
+    GridWork follow(const Tree& tree, double scale = 1);
 
     /// Whether this is the grid of just that tree.
     bool follows(const Tree& tree) const;
@@ -102,6 +103,7 @@ private:
     std::span<const Instruction> listOf(const GridCell& cell) const;
 
     Exact exact_;
+    double scale_ = 1;
     Tree tree_;
     Box box_{};
     glm::dvec3 corner_{0};
