@@ -287,3 +287,38 @@ TEST_CASE("a grid of nothing, of planes, of one, of many in one place and of one
             CHECK(a.solid == 0);
         }
 }
+
+TEST_CASE("a grid's scale changes its cells and no value; it is laid out anew, and the cells stay within their most") {
+    Draw draw(78);
+    const Tree tree = makeTree(heaps(draw, 300));
+    for (const Grid::Exact exact : {Grid::Exact::near_surfaces, Grid::Exact::everywhere}) {
+        Grid one(exact), again(exact);
+        one.follow(tree);
+        CHECK_FALSE(one.follow(tree, 1).whole);
+        std::size_t fewer = 0;
+        for (const double scale : {0.1, 0.5, 2.0, 4.0}) {
+            CAPTURE(scale);
+            CHECK(again.follow(tree, scale).whole);
+            CHECK_FALSE(again.follow(tree, scale).whole);
+            const Asked a = ask(again, draw, 7, 5'000);
+            CHECK(a.wrong + a.over + a.solid == 0);
+            CHECK(again.cellSize() == doctest::Approx(one.cellSize() / scale).epsilon(1e-9));
+            CHECK(again.cells().size() > fewer);
+            fewer = again.cells().size();
+        }
+        again.follow(tree, 1);
+        CHECK(same(one, again));
+    }
+
+    // Ten thousand choose the most cells for themselves: four times finer there are no more than eight times as many.
+    Scene crowd;
+    for (int i = 0; i < 12'000; ++i) addObject(crowd, "sphere", {0.02}, anywhere(draw, 5));
+    const Tree many = makeTree(crowd);
+    Grid chosen, finest;
+    chosen.follow(many);
+    const GridWork work = finest.follow(many, 4);
+    const auto coarse = [](const Grid& grid) { return static_cast<double>(grid.dims().x) * grid.dims().y * grid.dims().z; };
+    MESSAGE(coarse(chosen) << " cells, four times finer " << coarse(finest) << ", in " << work.ms << " ms, " << finest.cells().size() * sizeof(GridCell) / 1'000'000 << " MB with bricks");
+    CHECK(coarse(finest) > 4 * coarse(chosen));
+    CHECK(coarse(finest) < 1.2 * 262'144);
+}
