@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -55,6 +57,13 @@ void Progress::show(std::uint64_t done) {
     const int filled = kWidth * percent / 100;
     fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3} %", what_, "", filled, "", kWidth - filled, percent);
     std::fflush(stderr);
+}
+
+Camera cameraNamed(const Scene& scene, const std::string& name) {
+    if (name.empty()) return defaultCamera(scene);
+    const auto camera = std::ranges::find(scene.cameras, name, &Camera::name);
+    if (camera == scene.cameras.end()) throw Failure{kInputFault, fmt::format("the scene has no camera named '{}'", name)};
+    return *camera;
 }
 
 void addSettings(CLI::App& app, std::vector<std::string>& settings) {

@@ -42,11 +42,14 @@ struct Command {
     /// Adds its options to `app` and returns what runs when it is chosen.
     std::function<void()> (*make)(CLI::App& app, Common& common);
 };
-extern const Command kEdit, kRender, kSimulate, kEval, kEffects, kCheck, kBench;
+extern const Command kEdit, kRender, kSimulate, kEval, kEffects, kAccuracy, kCheck, kBench;
 
 /// The scene of the file, with each `settings` KEY=VALUE applied. Prints the file's warnings unless told to be quiet, and
 /// its faults; a failure carries code 1, 2 (a setting) or 4.
 Scene readSceneFile(const std::string& path, const std::vector<std::string>& settings, const Common& common);
+
+/// The scene's camera of that name, or the one looked through where the name is empty; a failure with code 1 where it has none.
+Camera cameraNamed(const Scene& scene, const std::string& name);
 
 /// Prints the faults (or the disk's fault) of a file on standard error; the code they mean.
 Exit reportFaults(const LoadResult& loaded, const std::string& path, const Common& common);

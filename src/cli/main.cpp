@@ -12,11 +12,10 @@ namespace {
 
 using namespace mb::cli;
 
-const Command* const kCommands[] = {&kEdit, &kRender, &kSimulate, &kEval, &kEffects, &kCheck, &kBench};
+const Command* const kCommands[] = {&kEdit, &kRender, &kSimulate, &kEval, &kEffects, &kAccuracy, &kCheck, &kBench};
 
 /// A word in a command's place that is neither a command nor a file is taken for a mistyped command.
 void refuseUnknown(const std::string& word) {
-    if (word == "accuracy") throw Failure{kCommandFault, fmt::format("'{}' is not in this version", word)};
     if (word.find_first_of("./") != std::string::npos || std::filesystem::exists(word)) return;
     throw Failure{kCommandFault, fmt::format("there is neither a command nor a scene '{}'; marchbox --help lists the commands", word)};
 }

@@ -55,13 +55,6 @@ std::vector<const Aov*> parseAovs(const std::vector<std::string>& names) {
     return wanted;
 }
 
-Camera chooseCamera(const Scene& scene, const std::string& name) {
-    if (name.empty()) return defaultCamera(scene);
-    const auto camera = std::ranges::find(scene.cameras, name, &Camera::name);
-    if (camera == scene.cameras.end()) throw Failure{kInputFault, fmt::format("the scene has no camera named '{}'", name)};
-    return *camera;
-}
-
 /// The one place of a "%04d" or "%d" in a sequence's name: its text before, after, and the digits.
 struct SequenceName {
     std::string before, after;
@@ -156,7 +149,7 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     checkStillName(options.out);
     const std::vector<const Aov*> aovs = parseAovs(options.aov);
     Motion(scene).advanceTo(options.at_s, scene, common);
-    const Camera camera = chooseCamera(scene, options.camera);
+    const Camera camera = cameraNamed(scene, options.camera);
     const auto context = headlessContext();
     checkSize(size);
     Renderer renderer;
@@ -197,7 +190,7 @@ void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const 
     quiet.quiet = true;
     for (int i = 0; i < options.frames; ++i) {
         motion.advanceTo(options.at_s + i / options.fps, scene, quiet);
-        orInputFault(renderer.draw(scene, chooseCamera(scene, options.camera), size));
+        orInputFault(renderer.draw(scene, cameraNamed(scene, options.camera), size));
         const std::vector<glm::vec3> picture = renderer.readShown();
         if (film) film->add(encodeSrgb(picture));
         else orDiskFault(writePng(name.of(i), size, picture));

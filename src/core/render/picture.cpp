@@ -1,5 +1,6 @@
 #include "core/render/picture.h"
 
+#include "core/measure/srgb.h"
 #include "core/scene/file.h"
 
 #include <fmt/format.h>
@@ -25,13 +26,7 @@ std::string writePfmBytes(const std::string& path, glm::ivec2 size, const char* 
 
 }  // namespace
 
-std::uint8_t srgb8(float linear) {
-    if (!(linear > 0)) return 0;
-    if (linear >= 1) return 255;
-    const double c = static_cast<double>(linear);
-    const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * encoded));
-}
+std::uint8_t srgb8(float linear) { return static_cast<std::uint8_t>(std::lround(255 * toSrgb(static_cast<double>(linear)))); }
 
 std::vector<std::uint8_t> encodeSrgb(std::span<const glm::vec3> linear) {
     std::vector<std::uint8_t> bytes;

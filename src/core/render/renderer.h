@@ -2,6 +2,7 @@
 // Draws a scene: the one renderer of the window, the command line and the tests. Needs a current OpenGL context for all
 // its life.
 #include "core/effects/plan.h"
+#include "core/measure/channels.h"
 #include "core/render/blocks.h"
 #include "core/render/compiler.h"
 #include "core/render/grid_buffers.h"
@@ -15,16 +16,6 @@
 #include <vector>
 
 namespace mb {
-
-/// A picture's other channels, size.x · size.y of each, the top row first; what the command line calls its AOVs.
-struct Channels {
-    glm::ivec2 size{0};
-    std::vector<float> depth;      // metres along the ray; +inf where nothing was hit
-    std::vector<glm::vec3> normal; // world; 0 where nothing was hit
-    std::vector<float> object;     // the top-level object's number; −1 for none
-    std::vector<float> steps;      // evaluations of the primary ray
-    std::vector<float> state;      // 0 miss, 1 hit, 2 undecided
-};
 
 /// What a frame took, exact and the same on every run.
 struct Counts {

@@ -1,0 +1,89 @@
+#include "core/accuracy/picture_errors.h"
+
+#include "core/measure/srgb.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mb {
+namespace {
+
+constexpr int kHit = 1, kUndecided = 2;  // of Channels::state
+int stateOf(const Channels& c, std::size_t i) { return static_cast<int>(c.state[i]); }
+
+/// The angle between two directions of unit length; its small values are not lost to a cosine.
+double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(2 * std::atan2(glm::length(a - b), glm::length(a + b))); }
+
+struct MeanSquare {
+    double sum = 0;
+    std::size_t n = 0;
+    void add(double x) { sum += x * x, ++n; }
+    double root() const { return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0; }
+};
+
+}  // namespace
+
+bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) {
+    const bool hit = truth.object[i] >= 0;
+    const int state = stateOf(drawn.channels, i);
+    if (state == kUndecided || (state == kHit) != hit) return true;
+    if (!hit) return false;
+    if (static_cast<int>(drawn.channels.object[i]) != truth.object[i]) return true;
+    return !(std::fabs(static_cast<double>(drawn.channels.depth[i]) - truth.depth[i]) <= kOtherSurface * truth.depth[i]);
+}
+
+double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double d = toSrgb(static_cast<double>(drawn.shown[i][c])) - truth.color[i][c];
+        sum += d * d;
+    }
+    return std::sqrt(sum / 3);
+}
+
+Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth) {
+    MeanSquare color, depth, normal;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.pixels(); ++i) {
+        color.add(colorError(drawn, truth, i));
+        if (isWrong(drawn, truth, i)) {
+            ++wrong;
+        } else if (truth.smooth[i]) {
+            depth.add(static_cast<double>(drawn.channels.depth[i]) / truth.depth[i] - 1);
+            normal.add(degreesBetween(glm::dvec3(drawn.channels.normal[i]), truth.normal[i]));
+        }
+    }
+    Values<Error> errors;
+    errors[Error::color] = color.root(), errors[Error::depth] = depth.root(), errors[Error::normal] = normal.root();
+    errors[Error::state] = truth.pixels() > 0 ? static_cast<double>(wrong) / static_cast<double>(truth.pixels()) : 0;
+    return errors;
+}
+
+double colorUncertainty(const DrawnPicture& drawn, const TruePicture& truth) {
+    if (truth.frame.stride == 1 || truth.pixels() < 2) return 0;
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < truth.pixels(); ++i) {
+        const double e = colorError(drawn, truth, i), square = e * e;
+        sum += square, squares += square * square;
+    }
+    const double n = static_cast<double>(truth.pixels()), mean = sum / n, variance = std::max(squares / n - mean * mean, 0.0);
+    return mean > 0 ? 2 * std::sqrt(variance / n) / (2 * std::sqrt(mean)) : 0;  // of a root, half its square's
+}
+
+std::string failureOf(const DrawnPicture& drawn, const TruePictureWork& truth) {
+    const auto broken = [](const glm::vec3& c) { return !std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z); };
+    if (const auto n = std::ranges::count_if(drawn.shown, broken); n > 0) return fmt::format("the color of {} pixels is no number", n);
+    const std::size_t pixels = truth.picture().pixels(), most = static_cast<std::size_t>(kMostUndecided * static_cast<double>(pixels));
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < pixels && undecided <= most; ++i)
+        undecided += stateOf(drawn.channels, i) == kUndecided && !truth.isTooCloseToTell(i);
+    if (undecided <= most) return {};
+    const auto all = std::ranges::count(drawn.channels.state, static_cast<float>(kUndecided));
+    return fmt::format("{} of {} pixels are undecided ({:.3f} %)", all, pixels, 100 * static_cast<double>(all) / static_cast<double>(pixels));
+}
+
+}  // namespace mb

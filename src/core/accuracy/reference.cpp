@@ -1,0 +1,135 @@
+#include "core/accuracy/reference.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace mb {
+namespace {
+
+constexpr double kSmoothCosine = 0.9659258262890683;  // of 15°: what a smooth surface's normal turns by within a pixel at most
+constexpr double kFloatUlps = 4 * 1.1920929e-7;       // four units in the last place, of 1
+
+Ray rayAt(const Frame& frame, int x, int y, glm::dvec2 place) {
+    const glm::dvec2 middle = (glm::dvec2(x, y) + 0.5) * static_cast<double>(frame.stride);
+    return cameraRay(frame.camera, frame.size * frame.stride, middle + place);
+}
+
+/// Samples of a pixel's area, and what they add up to.
+struct Area {
+    glm::dvec3 sum{0}, halves[2]{glm::dvec3{0}, glm::dvec3{0}}, least{1e300}, most{-1e300};
+    int n = 0;
+    glm::dvec3 mean() const { return sum / static_cast<double>(n); }
+};
+
+}  // namespace
+
+TruePictureWork::TruePictureWork(Scene scene, const Frame& frame)
+    : scene_(std::move(scene)), oracle_(scene_), radiance_(oracle_, scene_) {
+    picture_.frame = frame;
+    const std::size_t pixels = static_cast<std::size_t>(frame.size.x) * static_cast<std::size_t>(frame.size.y);
+    picture_.depth.resize(pixels, std::numeric_limits<double>::infinity()), picture_.normal.resize(pixels, glm::dvec3{0});
+    picture_.object.resize(pixels, -1), picture_.smooth.resize(pixels, 0), picture_.color.resize(pixels, glm::dvec3{0});
+    noise_.resize(static_cast<std::size_t>(frame.size.y), 0);
+    for (const Leaf& leaf : oracle_.tree().leaves) {
+        const Box box = leaf.primitive->extent(leaf.numbers);
+        if (!isFinite(box)) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) largest_ = std::max({largest_, -box.lo[axis], box.hi[axis]});
+    }
+}
+
+void TruePictureWork::pixel(int x, int y, double& io_noise) {
+    const Frame& frame = picture_.frame;
+    const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.size.x) + static_cast<std::size_t>(x);
+    const std::optional<TrueHit> middle = oracle_.firstHit(rayAt(frame, x, y, {0, 0}), scene_.render.max_distance);
+    if (middle) picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
+    bool smooth = middle.has_value();
+
+    // A square of samples at the middles of equal cells, each half of a checkerboard of them a picture of its own.
+    const auto sampled = [&](int side) {
+        Area area;
+        for (int k = 0; k < side * side; ++k) {
+            const glm::ivec2 cell{k % side, k / side};
+            const glm::dvec2 place = (glm::dvec2(cell) + 0.5) / static_cast<double>(side) - 0.5;
+            const double turn = std::fmod((k + 0.5) * 0.61803398874989485 + static_cast<double>(i) * 0.75487766624669276, 1.0);
+            const Radiance::Seen seen = radiance_.along(rayAt(frame, x, y, place), {16, turn});
+            smooth = smooth && seen.hit && seen.hit->object == middle->object && glm::dot(seen.hit->normal, middle->normal) > kSmoothCosine;
+            area.sum += seen.color, area.halves[(cell.x + cell.y) % 2] += seen.color;
+            area.least = glm::min(area.least, seen.color), area.most = glm::max(area.most, seen.color);
+            ++area.n;
+        }
+        return area;
+    };
+    Area area = sampled(kFew);
+    const glm::dvec3 differ = radiance_.shown(area.most) - radiance_.shown(area.least);
+    if (std::max({differ.x, differ.y, differ.z}) > kDiffer) area = sampled(kMany);
+    picture_.color[i] = radiance_.shown(area.mean());
+    picture_.smooth[i] = smooth;
+    // The two halves are as far apart as twice the error of their mean.
+    const double half = 0.5 * area.n;
+    const glm::dvec3 apart = 0.5 * (radiance_.shown(area.halves[0] / half) - radiance_.shown(area.halves[1] / half));
+    io_noise += glm::dot(apart, apart) / 3;
+}
+
+void TruePictureWork::row(int y, double& io_noise) {
+    for (int x = 0; x < picture_.frame.size.x; ++x) pixel(x, y, io_noise);
+}
+
+void TruePictureWork::conclude() {
+    double sum = 0;
+    for (const double n : noise_) sum += n;
+    picture_.noise = picture_.pixels() > 0 ? std::sqrt(sum / static_cast<double>(picture_.pixels())) : 0;
+}
+
+double TruePictureWork::progress() const { return static_cast<double>(next_row_) / picture_.frame.size.y; }
+
+bool TruePictureWork::step(double ms) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    while (next_row_ < picture_.frame.size.y && std::chrono::duration<double, std::milli>(Clock::now() - start).count() < ms) {
+        row(next_row_, noise_[static_cast<std::size_t>(next_row_)]);
+        if (++next_row_ == picture_.frame.size.y) conclude();
+    }
+    return next_row_ < picture_.frame.size.y;
+}
+
+void TruePictureWork::finish(const std::function<void(double)>& show) {
+    const int rows = picture_.frame.size.y;
+    std::atomic<int> next{next_row_};
+    const auto work = [&](bool shows) {
+        for (int y = next++; y < rows; y = next++) {
+            row(y, noise_[static_cast<std::size_t>(y)]);
+            if (shows && show) show(static_cast<double>(y) / rows);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work, false);
+    work(true);
+    for (std::thread& t : threads) t.join();
+    if (next_row_ < rows) next_row_ = rows, conclude();
+}
+
+bool TruePictureWork::isTooCloseToTell(std::size_t pixel) const {
+    const Frame& frame = picture_.frame;
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(frame.size.x)), y = static_cast<int>(pixel / static_cast<std::size_t>(frame.size.x));
+    const Ray ray = rayAt(frame, x, y, {0, 0});
+    const auto ends = [&](const Ray& near) { return oracle_.firstHit(near, scene_.render.max_distance); };
+    const std::optional<TrueHit> middle = ends(ray);
+    for (int k = 0; k < 8; ++k) {
+        const double angle = k * 0.78539816339744831;
+        const glm::dvec3 side = std::fabs(ray.direction.y) < 0.9 ? glm::dvec3{0, 1, 0} : glm::dvec3{1, 0, 0};
+        const glm::dvec3 u = glm::normalize(glm::cross(ray.direction, side)), v = glm::cross(ray.direction, u);
+        const glm::dvec3 off = kFloatUlps * (std::cos(angle) * u + std::sin(angle) * v);
+        const std::optional<TrueHit> other = ends({ray.origin + largest_ * off, glm::normalize(ray.direction + off)});
+        if (middle.has_value() != other.has_value()) return true;
+        if (middle && std::fabs(other->t - middle->t) > 1e-3 * middle->t) return true;
+    }
+    return false;
+}
+
+}  // namespace mb

@@ -1,0 +1,82 @@
+#include "core/accuracy/search.h"
+
+#include <algorithm>
+
+namespace mb {
+
+Search::Search(const Setting& own, const Setting& defaults, Plan plan) : own_(own), plan_(std::move(plan)) {
+    std::erase_if(plan_.knobs, [&](const Knob* knob) { return knob->cost != plan_.terms.cost; });
+    for (const Knob* knob : plan_.knobs) {
+        std::vector<double> values = valuesWith(*knob, valueOf(own, *knob));
+        if (const double usual = valueOf(defaults, *knob); std::ranges::find(values, usual) == values.end()) {
+            const bool falls = values.front() > values.back();
+            values.insert(std::ranges::find_if(values, [&](double v) { return falls ? v < usual : v > usual; }), usual);
+        }
+        values_.push_back(std::move(values));
+    }
+    seen_ = {placeOf(own), placeOf(defaults)};  // every sweep begins with these
+}
+
+Setting Search::settingAt(const Place& place) const {
+    Setting setting = own_;
+    for (std::size_t k = 0; k < place.size(); ++k) setting = turned(setting, *plan_.knobs[k], values_[k][static_cast<std::size_t>(place[k])]);
+    return setting;
+}
+
+Search::Place Search::placeOf(const Setting& setting) const {
+    Place place;
+    for (std::size_t k = 0; k < plan_.knobs.size(); ++k) {
+        const double value = valueOf(setting, *plan_.knobs[k]);
+        const auto found = std::ranges::min_element(values_[k], {}, [&](double v) { return std::fabs(v - value); });
+        place.push_back(static_cast<int>(found - values_[k].begin()));
+    }
+    return place;
+}
+
+void Search::want(const Place& place) {
+    if (seen_.insert(place).second) wanted_.push_back(place);
+}
+
+/// The next setting on the way from the cheap ends of all knobs to the dear ones, as long as the last was not too dear.
+bool Search::wantDiagonal(std::span<const Run> runs) {
+    constexpr int kSteps = 9;
+    while (diagonal_ < kSteps && wanted_.empty()) {
+        if (diagonal_ > 0 && runs.back().costs[plan_.terms.cost] > limit(runs)) diagonal_ = kSteps;
+        Place place;
+        for (const std::vector<double>& values : values_) place.push_back((diagonal_ * (static_cast<int>(values.size()) - 1) + kSteps / 2) / (kSteps - 1));
+        if (diagonal_ < kSteps) want(place);
+        ++diagonal_;
+    }
+    return !wanted_.empty();
+}
+
+/// Of the runs on the line of each error, the places a stride off along each knob.
+void Search::wantNeighbours(std::span<const Run> runs) {
+    for (const Error error : plan_.terms.errors)
+        for (const std::size_t i : frontOf(runs, error, plan_.terms.cost)) {
+            if (runs[i].costs[plan_.terms.cost] > limit(runs)) continue;
+            const Place place = placeOf(runs[i].setting);
+            for (std::size_t k = 0; k < place.size(); ++k)
+                for (const int by : {-stride_, stride_}) {
+                    Place next = place;
+                    next[k] = std::clamp(next[k] + by, 0, static_cast<int>(values_[k].size()) - 1);
+                    want(next);
+                }
+        }
+}
+
+std::optional<Setting> Search::next(std::span<const Run> runs) {
+    if (asked_ >= plan_.most || plan_.knobs.empty()) return std::nullopt;
+    while (wanted_.empty() && !wantDiagonal(runs)) {
+        wantNeighbours(runs);
+        if (!wanted_.empty()) break;
+        if (stride_ == 1) return std::nullopt;
+        stride_ = 1;
+    }
+    const Place place = wanted_.front();
+    wanted_.pop_front();
+    ++asked_;
+    return settingAt(place);
+}
+
+}  // namespace mb

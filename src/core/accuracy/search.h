@@ -1,0 +1,48 @@
+#pragma once
+// A joint sweep: which settings of several knobs to try, coarse to fine. It begins with settings spread from the cheapest to the
+// dearest, then tries the neighbours of those that nothing beats, by two values of a knob at first and by one when no more of these
+// are left (Paquete, Chiarandini and Stuetzle, "Pareto Local Optimum Sets in the Biobjective Traveling Salesman Problem", 2004).
+// What it asks for depends on errors and on counted costs alone, so that two runs ask for the same.
+#include "core/accuracy/front.h"
+#include "core/accuracy/knobs.h"
+
+#include <deque>
+#include <set>
+
+namespace mb {
+
+class Search {
+public:
+    struct Plan {
+        std::vector<const Knob*> knobs;  // those paid in the terms' cost are searched
+        Terms terms;                     // errors and a counted cost
+        std::size_t most = 200;          // settings
+        double dearest = 8;              // times the own setting's cost: nothing is tried beyond what costs more
+    };
+    /// The values tried are each knob's own and those of these settings; whatever else they have stays as in `own`.
+    Search(const Setting& own, const Setting& defaults, Plan plan);
+
+    /// The next setting to try, given all the runs so far; none: it is done.
+    std::optional<Setting> next(std::span<const Run> runs);
+    std::size_t asked() const { return asked_; }
+    std::size_t most() const { return plan_.most; }
+
+private:
+    using Place = std::vector<int>;      // of each knob: which of its values
+    Setting settingAt(const Place& place) const;
+    Place placeOf(const Setting& setting) const;
+    void want(const Place& place);
+    bool wantDiagonal(std::span<const Run> runs);
+    void wantNeighbours(std::span<const Run> runs);
+    double limit(std::span<const Run> runs) const { return plan_.dearest * runs[kOwnRun].costs[plan_.terms.cost]; }
+
+    Setting own_;
+    Plan plan_;
+    std::vector<std::vector<double>> values_;
+    std::deque<Place> wanted_;
+    std::set<Place> seen_;
+    int diagonal_ = 0, stride_ = 2;
+    std::size_t asked_ = 0;
+};
+
+}  // namespace mb

@@ -1,0 +1,65 @@
+#include "physics/true_motion.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mb {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::uint64_t visitsOf(const StepCounts& c) {
+    return c.integrations + c.static_queries + c.body_gaps + c.searches + c.rounds + c.drags + c.bounces;
+}
+
+}  // namespace
+
+Tracker::Tracker(const Scene& scene, double seconds, double every_s) : world_(scene), seconds_(seconds) {
+    track_.every_s = every_s;
+    for (const Body& b : world_.bodies()) track_.bodies.push_back(b.object), last_.push_back(b.position);
+    note(1);
+}
+
+/// Notes the moment that lies this share of the last step after its beginning.
+void Tracker::note(double share) {
+    std::vector<glm::dvec3> places(track_.bodies.size(), glm::dvec3{kNan});
+    for (const Body& b : world_.bodies()) {
+        const auto i = static_cast<std::size_t>(std::ranges::find(track_.bodies, b.object) - track_.bodies.begin());
+        places[i] = share == 1 ? b.position : last_[i] + share * (b.position - last_[i]);
+    }
+    track_.places.push_back(std::move(places));
+    const Energy energy = world_.energy();
+    track_.energy.push_back(energy.total()), track_.kinetic.push_back(energy.kinetic);
+    track_.deepest = std::max(track_.deepest, world_.maxPenetration());
+    track_.lost = world_.removed();
+    track_.visits = visitsOf(world_.counts());
+}
+
+bool Tracker::step() {
+    const double before = world_.time_s(), close = 1e-9 * world_.dt_s();
+    const auto moments = static_cast<std::size_t>(std::llround(seconds_ / track_.every_s)) + 1;
+    if (track_.places.size() >= moments) return false;
+    for (const Body& b : world_.bodies())
+        last_[static_cast<std::size_t>(std::ranges::find(track_.bodies, b.object) - track_.bodies.begin())] = b.position;
+    world_.step();
+    while (track_.places.size() < moments) {
+        const double due = static_cast<double>(track_.places.size()) * track_.every_s;
+        if (due > world_.time_s() + close) break;
+        const double share = (due - before) / world_.dt_s();
+        note(share > 1 - 1e-6 ? 1 : share);
+    }
+    return track_.places.size() < moments;
+}
+
+Scene referenceScene(const Scene& scene, int finer) {
+    constexpr int kTurns = 100;
+    Scene fine = scene;
+    fine.physics.dt = std::max(scene.physics.dt / finer, 1e-6);
+    fine.physics.iterations = std::max(scene.physics.iterations, kTurns);
+    fine.physics.sleep_speed = 0;
+    return fine;
+}
+
+}  // namespace mb
