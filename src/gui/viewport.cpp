@@ -71,11 +71,11 @@ void Viewport::showKept() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-/// Draws into the renderer's picture and measures; says whether it could.
-bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
+/// Draws the picture into the renderer's, with so many pixels, and measures; says whether it could.
+bool Viewport::draw(const Scene& scene, const Camera& camera, glm::ivec2 pixels) {
     priced_ = false;
     const double start = nowMs();
-    why_ = renderer_->draw(scene, camera, size);
+    why_ = renderer_->draw(scene, camera, Raster{size_, pixels});
     put_off_ = renderer_->putOff();
     if (!why_.empty() || put_off_) return false;
     gl.Finish();
@@ -129,7 +129,7 @@ void Viewport::count(const Scene& scene, const Camera& camera, PictureState& sta
     if (put_off_ || renderer_->compiling()) return;
     const glm::ivec2 size = sizeWithin(full_, kFrameMs * 1e6 / ns_per_pixel_);
     Measured measured;
-    state.counts = renderer_->measure(scene, camera, size, measured);
+    state.counts = renderer_->measure(scene, camera, Raster{size_, size}, measured);
     state.count_wanted = renderer_->putOff();
     if (state.count_wanted || !state.counts.empty()) return;
     const Counts& c = measured.counts;
@@ -188,12 +188,8 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
         return showKept();
     }
 
-    // How many pixels are drawn is settled here, and the renderer enlarges nothing.
-    full_ = rasterOf(size, editor.scene().render.scale).drawn;
-    std::optional<Scene> unscaled;
-    if (editor.scene().render.scale != 1) unscaled = editor.scene(), unscaled->render.scale = 1;
-    const Scene& scene = unscaled ? *unscaled : editor.scene();
-
+    const Scene& scene = editor.scene();
+    full_ = rasterOf(size, scene.render.scale).drawn;
     const double now = nowMs();
     const bool changed = moved || editor.revision() != drawn_revision_, compiled = put_off_ && !renderer_->compiling();
     showKept();

@@ -30,7 +30,7 @@ private:
     void fillLedger(PictureState& state);
     void tryProgram(const Scene& scene, const Camera& camera);
     void count(const Scene& scene, const Camera& camera, PictureState& state);
-    bool draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
+    bool draw(const Scene& scene, const Camera& camera, glm::ivec2 pixels);
     void keepShown(glm::ivec2 corner, glm::ivec2 size);
     void showKept();
     void makeKept(glm::ivec2 window);

@@ -310,7 +310,7 @@ TEST_CASE("a grid's scale changes its cells and no value; it is laid out anew, a
         CHECK(same(one, again));
     }
 
-    // Ten thousand choose the most cells for themselves: four times finer there are no more than eight times as many.
+    // Ten thousand choose the most cells for themselves: however fine they shall be, there are no more than twice as many.
     Scene crowd;
     for (int i = 0; i < 12'000; ++i) addObject(crowd, "sphere", {0.02}, anywhere(draw, 5));
     const Tree many = makeTree(crowd);
@@ -319,6 +319,6 @@ TEST_CASE("a grid's scale changes its cells and no value; it is laid out anew, a
     const GridWork work = finest.follow(many, 4);
     const auto coarse = [](const Grid& grid) { return static_cast<double>(grid.dims().x) * grid.dims().y * grid.dims().z; };
     MESSAGE(coarse(chosen) << " cells, four times finer " << coarse(finest) << ", in " << work.ms << " ms, " << finest.cells().size() * sizeof(GridCell) / 1'000'000 << " MB with bricks");
-    CHECK(coarse(finest) > 4 * coarse(chosen));
-    CHECK(coarse(finest) < 1.2 * 262'144);
+    CHECK(coarse(finest) > 1.5 * coarse(chosen));
+    CHECK(coarse(finest) < 1.3 * 65'536);  // the cells around the box come on top
 }

@@ -25,16 +25,15 @@ Renderer::Renderer(std::unique_ptr<Compiler> compiler) : compiler_(std::move(com
     }
 }
 
-std::string Renderer::draw(const Scene& scene, const Camera& camera, glm::ivec2 size) {
-    const Raster raster = rasterOf(size, scene.render.scale, stride_);
+std::string Renderer::draw(const Scene& scene, const Camera& camera, const Raster& raster) {
     const Ready ready = prepare(scene, camera, raster, Variant::plain, camera.eye);
     if (!ready.program) return ready.why;
     if (picture_.size() != raster.drawn) picture_ = Targets(raster.drawn, kPictureAttachments);
-    size_ = size;
+    size_ = raster.size;
     picture_.clear();
     {
         const AddingUp adding;
-        eachPass(scene, ready.frame, [&] { quad_.draw(); });
+        eachPass(scene, ready, [&] { quad_.draw(); });
     }
     return develop(ready);
 }
@@ -121,6 +120,7 @@ void Renderer::present(glm::ivec2 corner, glm::ivec2 size) {
 
 Renderer::Ready Renderer::prepare(const Scene& scene, const Camera& camera, const Raster& raster, Variant variant, glm::dvec3 origin) {
     Ready ready;
+    ready.stride = raster.stride;
     awaited_.clear();
     const int most = maxTargetSize();
     if (const glm::ivec2 size = raster.drawn; size.x < 1 || size.y < 1 || size.x > most || size.y > most) {

@@ -71,7 +71,9 @@ public:
 
     /// Draws the scene into picture(), which is smaller than the size asked for where the scene's `scale` says so. Returns why it could not, or nothing. The last picture stays then, and also where this
     /// one was put off.
-    std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size);
+    std::string draw(const Scene& scene, const Camera& camera, glm::ivec2 size) { return draw(scene, camera, rasterOf(size, scene.render.scale, stride_)); }
+    /// The same with just these pixels, whatever the scene's `scale` says.
+    std::string draw(const Scene& scene, const Camera& camera, const Raster& raster);
     /// The picture last drawn, at the size asked for: linear RGB, the top row first.
     std::vector<glm::vec3> readPicture() const;
     /// The same as it is shown: what the scene's film makes of it, if it has one.
@@ -81,7 +83,10 @@ public:
     std::size_t countUndecided() const;
     const Targets& picture() const { return picture_; }
     /// Draws once more with counters: the other channels, at the size asked for, and what draw() takes; and how often the effect was used, if one is named.
-    std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted = nullptr);
+    std::string measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted = nullptr) {
+        return measure(scene, camera, rasterOf(size, scene.render.scale, stride_), out, counted);
+    }
+    std::string measure(const Scene& scene, const Camera& camera, const Raster& raster, Measured& out, const Effect* counted = nullptr);
     /// The scene's own functions at points, in the world's coordinates.
     std::string evaluate(const Scene& scene, const std::vector<glm::vec3>& points, std::vector<GpuSample>& out);
     /// Whether the last draw() or measure() did nothing because its program is not compiled yet; and whether it still is not.
@@ -105,6 +110,7 @@ private:
         const Program* program = nullptr;  // null also where it is put off
         Packed packed;
         GpuFrame frame{};
+        int stride = 1;
         bool grid = false;
     };
     enum class Variant { plain, counted, evaluate, develop };
@@ -117,7 +123,7 @@ private:
     void keep(std::string text, Program program);
     void keepCompiled();
     std::string upload(const Ready& ready);
-    template <class F> void eachPass(const Scene& scene, GpuFrame frame, F pass);
+    template <class F> void eachPass(const Scene& scene, const Ready& ready, F pass);
     void bindFrame(const GpuFrame& frame);
 
     struct Cached {
@@ -165,10 +171,11 @@ inline constexpr int kPictureAttachments = 2, kChannelAttachments = 8;
 glm::dvec2 samplePlace(int i, int n);
 
 /// Calls `pass` for every sample of a pixel and every turn of lights, the frame's block set for it.
-template <class F> void Renderer::eachPass(const Scene& scene, GpuFrame frame, F pass) {
+template <class F> void Renderer::eachPass(const Scene& scene, const Ready& ready, F pass) {
+    GpuFrame frame = ready.frame;
     const int samples = scene.render.samples;
     for (int i = 0; i < samples; ++i) {
-        const glm::dvec2 place = samplePlace(i, samples) / static_cast<double>(stride_);
+        const glm::dvec2 place = samplePlace(i, samples) / static_cast<double>(ready.stride);
         frame.picture.z = static_cast<float>(place.x), frame.picture.w = static_cast<float>(place.y);
         for (const LightPass& lights : plan_.passes) {
             const bool first = lights.first == 0;

@@ -31,8 +31,7 @@ void addCounts(const Targets& channels, Counts& c) {
 
 }  // namespace
 
-std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ivec2 size, Measured& out, const Effect* counted) {
-    const Raster raster = rasterOf(size, scene.render.scale, stride_);
+std::string Renderer::measure(const Scene& scene, const Camera& camera, const Raster& raster, Measured& out, const Effect* counted) {
     Ready ready = prepare(scene, camera, raster, Variant::counted, camera.eye);
     if (!ready.program) return ready.why;
     if (counted) ready.frame.counted.x = static_cast<int>(numberOf(*counted));
@@ -41,7 +40,7 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
     const std::size_t pixels = static_cast<std::size_t>(raster.drawn.x) * static_cast<std::size_t>(raster.drawn.y);
 
     // The counters of every pass that a picture takes.
-    eachPass(scene, ready.frame, [&] {
+    eachPass(scene, ready, [&] {
         channels_.clear();
         quad_.draw();
         addCounts(channels_, out.counts);
@@ -55,7 +54,7 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
     quad_.draw();
     const std::vector<float> surface = channels_.read(1), ray = channels_.read(2);
     Channels& c = out.channels;
-    c.size = size;
+    c.size = raster.size;
     c.depth.resize(pixels), c.normal.resize(pixels), c.object.resize(pixels), c.steps.resize(pixels), c.state.resize(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         c.normal[i] = {surface[4 * i], surface[4 * i + 1], surface[4 * i + 2]};
@@ -63,7 +62,7 @@ std::string Renderer::measure(const Scene& scene, const Camera& camera, glm::ive
         c.object[i] = ray[4 * i], c.steps[i] = ray[4 * i + 1], c.state[i] = ray[4 * i + 2];
         out.counts.pixels.hit += c.state[i] == 1, out.counts.pixels.miss += c.state[i] == 0, out.counts.pixels.undecided += c.state[i] == 2;
     }
-    const auto enlarge = [&](auto& channel) { channel = enlargedByNearest(std::move(channel), raster.drawn, size); };
+    const auto enlarge = [&](auto& channel) { channel = enlargedByNearest(std::move(channel), raster.drawn, raster.size); };
     enlarge(c.depth), enlarge(c.normal), enlarge(c.object), enlarge(c.steps), enlarge(c.state);
     return {};
 }

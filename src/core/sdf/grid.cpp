@@ -13,7 +13,7 @@ namespace mb {
 namespace {
 
 constexpr double kMostCells = 32'768;      // coarse ones, chosen by itself
-constexpr double kMostScaled = 262'144;    // and whatever the scale
+constexpr double kMostScaled = 65'536;     // whatever the scale: where all is in one place, every cell keeps all of it
 constexpr double kCellsAPart = 3;
 constexpr double kRoom = 0.05;             // of the box's size, that things may move before all is laid out anew
 
