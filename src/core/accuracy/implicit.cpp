@@ -203,7 +203,7 @@ void Implicit::march(const Ray& ray, double from, double to, bool first, Interva
     const auto along = [&](double t) { return value(ray.origin + t * ray.direction); };
     double t = begin, v = along(t);
     bool inside = v < 0;
-    Interval open{{begin, -ray.direction, -1}, {}};
+    Interval open{{begin, -ray.direction, -1}, {kInfinity, {}, -1}};
     if (inside && first) return void(found.push_back(open));
     while (t < end) {
         const double shortest = noise + resolution() * (finite_ ? 1 : std::max(1.0, t / size_));
