@@ -31,11 +31,9 @@ TEST_CASE("rows: every primitive has a solid of its own, and the first surface i
             CHECK(oracle.notes().empty());
             for (int i = 0; i < 40; ++i) tally.add(oracle, drawRay(draw, 1.5), 50, 1);
         }
-        MESSAGE(row.name << ": " << tally.rays << " rays, " << tally.hits << " hits, worst " << tally.worst << " m, undecided " << tally.undecided << ", touches "
-                         << tally.touches);
+        MESSAGE(row.name << ": " << tally.rays << " rays, " << tally.hits << " hits, worst " << tally.worst << " m, undecided " << tally.undecided);
         CHECK(tally.hits > tally.rays / 20);
         CHECK(tally.undecided < tally.rays / 20);
-        CHECK(tally.touches <= tally.rays / 500);
         CHECK(tally.wrong == 0);
         CHECK(tally.off == 0);
     }

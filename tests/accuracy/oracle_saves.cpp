@@ -37,7 +37,7 @@ TEST_CASE("saves: the pixels' rays end as the field says") {
         CHECK(wrong <= 3);
         CHECK(far_off <= 3);
         CHECK(objects <= 3);
-        CHECK(undecided <= 12);
+        CHECK(undecided <= size.x);  // a row of pixels at the horizon of a plane, at most
     }
     CHECK(scenes >= 8);
 }

@@ -98,6 +98,7 @@ KnownTree::KnownTree(Tree t) : tree(std::move(t)) {
         std::string sentence = fmt::format("{} '{}' has no form of its own here: its values are the program's", kind, name);
         if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
     };
+    if (!tree.fault.empty()) notes.push_back(tree.fault);
     for (const Leaf& leaf : tree.leaves)
         if (!solids.emplace_back(findSolid(leaf.primitive->name))) note("primitive", leaf.primitive->name);
     for (const Branch& branch : tree.branches)
