@@ -98,6 +98,7 @@ KnownTree::KnownTree(Tree t) : tree(std::move(t)) {
         std::string sentence = fmt::format("{} '{}' has no form of its own here: its values are the program's", kind, name);
         if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
     };
+    if (!tree.fault.empty()) notes.push_back(tree.fault);
     for (const Leaf& leaf : tree.leaves)
         if (!solids.emplace_back(findSolid(leaf.primitive->name))) note("primitive", leaf.primitive->name);
     for (const Branch& branch : tree.branches)
@@ -203,7 +204,7 @@ void Implicit::march(const Ray& ray, double from, double to, bool first, Interva
     const auto along = [&](double t) { return value(ray.origin + t * ray.direction); };
     double t = begin, v = along(t);
     bool inside = v < 0;
-    Interval open{{begin, -ray.direction, -1}, {}};
+    Interval open{{begin, -ray.direction, -1}, {kInfinity, {}, -1}};
     if (inside && first) return void(found.push_back(open));
     while (t < end) {
         const double shortest = noise + resolution() * (finite_ ? 1 : std::max(1.0, t / size_));

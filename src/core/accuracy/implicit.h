@@ -16,7 +16,7 @@ struct KnownTree {
     Tree tree;
     std::vector<const Solid*> solids;  // of tree.leaves
     std::vector<const Rule*> rules;    // of tree.branches
-    std::vector<std::string> notes;    // a sentence for each row that is not known
+    std::vector<std::string> notes;    // a sentence for each row that is not known, or why there is no tree
 };
 
 class Implicit {

@@ -167,7 +167,7 @@ std::optional<TrueHit> Oracle::Parts::wayOut(const Ray& ray, double far) const {
         const bool same = std::fabs(x.leave.t - out.t) <= tie;
         if (same ? x.leave.leaf < out.leaf : x.leave.t > out.t) out = x.leave;
     }
-    if (!(out.t < far) || out.leaf < 0) return std::nullopt;
+    if (out.t > far || out.leaf < 0) return std::nullopt;
     return hitAt(out, true);
 }
 
@@ -189,7 +189,7 @@ std::optional<TrueHit> Oracle::firstHit(const Ray& ray, double far) const {
         parts_->eachStretch(part, ray, reach, bound, true, [&](const Interval& x, bool from_start) {
             const bool same = best.leaf >= 0 && std::fabs(x.enter.t - best.t) <= tieAt(best.t, reach);
             if (from_start) inside = true;
-            else if (same ? x.enter.leaf < best.leaf : x.enter.t < best.t) best = x.enter;
+            else if (same ? x.enter.leaf < best.leaf : x.enter.t < best.t || (best.leaf < 0 && x.enter.t == far)) best = x.enter;
             return false;
         });
         return bound = std::min(far, best.t + tieAt(best.t, reach));

@@ -29,6 +29,7 @@ struct LeafShare {
     glm::dvec3 at{0};         // the point in the leaf's own frame, behind the warps above it
 };
 
+/// Made of a scene once; then any number of threads may ask it at a time.
 class Oracle {
 public:
     explicit Oracle(const Scene& scene);
@@ -47,11 +48,14 @@ public:
 
     /// Whether every part of the scene has lists of intervals; else roots were marched for.
     bool isExact() const;
-    /// m: what is thinner than this along a ray may be missed where roots are marched for; and how far a marched root may be from
-    /// where the sign truly changes. Both 0 where all is exact.
+    /// m: what is thinner than this along a ray may be missed where roots are marched for; of what has no bounds, in proportion to the
+    /// way where that is longer than the shape's largest part with bounds. 0 where all is exact.
     double resolution() const;
+    /// m: how far a marched root may be from where its value changes its sign, if that rises by 1 a metre along the ray there; where it
+    /// rises by a tenth of that, ten times as far. 0 where all is exact.
     double rootError() const;
-    /// What a reader must know: primitives without a form of their own, whose distance is then the program's own.
+    /// What a reader must know: primitives and operators without a form of their own here, whose values are then the program's own;
+    /// or why the scene has no tree.
     const std::vector<std::string>& notes() const;
 
 private:

@@ -95,7 +95,8 @@ Interval swollenBox(const LocalRay& ray, glm::dvec3 core, double r) {
 
 /// A cylinder swollen by r: two columns, and a torus around each rim.
 Interval swollenCylinder(const LocalRay& ray, double radius, double half_height, double r) {
-    Interval x = column(ray, 1, {}, radius + r, half_height);
+    Interval x = nothing();
+    widen(x, column(ray, 1, {}, radius + r, half_height));
     widen(x, column(ray, 1, {}, radius, half_height + r));
     for (const double y : {-half_height, half_height}) {
         Inside rim;
@@ -134,7 +135,8 @@ void insideCylinder(const LocalRay& ray, const LeafNumbers& k, Inside& inside) {
 
 void insideCapsule(const LocalRay& ray, const LeafNumbers& k, Inside& inside) {
     const double half = k[1] / 2;
-    Interval x = column(ray, 1, {}, k[0], half);
+    Interval x = nothing();
+    widen(x, column(ray, 1, {}, k[0], half));
     for (const double y : {-half, half}) widen(x, ball(ray, {0, y, 0}, k[0]));
     inside.add(x);
 }

@@ -46,7 +46,8 @@ void insideTorus(const LocalRay& ray, double major, double minor, Inside& inside
         const bool now = i < turns.count && along(to) < 0;
         if (now != within) {
             const double t = halve(along, from, to, within);
-            (now ? open.enter : open.leave) = {t, tube.normal(ray.at(t)), -1};
+            const End end{t, tube.normal(ray.at(t)), -1};  // on its own: g++ 12 assigns a braced list to a chosen one wrongly
+            (now ? open.enter : open.leave) = end;
             if (!now) inside.add(open);
         }
         from = to, within = now;
