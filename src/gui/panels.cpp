@@ -57,6 +57,8 @@ const Entry kEntries[] = {
     {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
     {.menu = "Settings", .name = "Effects", .shortcut = {GLFW_KEY_F2, false, "F2"}, .tip = "what the scene calls for, by which records, and what it costs",
      .draw = drawEffects, .width = 760, .height = 520},
+    {.menu = "Settings", .name = "Accuracy", .shortcut = {GLFW_KEY_F3, false, "F3"}, .tip = "what the picture and the motion are wrong by, and what less costs",
+     .draw = drawAccuracy, .width = 600, .height = 600},
 };
 
 constexpr MouseControl kMouse[] = {
@@ -160,12 +162,19 @@ void Ui::unlessUnsaved(std::function<void()> what) {
     if (!after) after = std::move(what);
 }
 
+void Ui::stopMeasuring() {
+    AccuracyMemory& a = accuracy;
+    a.stopped |= picture.sweeping || picture.sweep_wanted || a.sweeping_motion;
+    picture.sweeping = picture.sweep_wanted = a.sweeping_motion = false;
+}
+
 void drawInterface(Ui& ui) {
     drawMenuBar(ui);
     layOut(ui);
     for (std::size_t i = 0; i < entries().size(); ++i)
         if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
     if (!ui.isOpen("Effects")) ui.picture.pricing = ui.pricing_motion = false;  // nobody waits for it
+    if (!ui.isOpen("Accuracy")) ui.stopMeasuring(), ui.picture.errors_wanted = false;
     drawStatusBar(ui);
     drawMessage(ui);
     drawQuestion(ui);

@@ -47,8 +47,6 @@ std::string stroke(double x1, double y1, double x2, double y2, std::string_view 
     return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, color);
 }
 
-std::string decadeName(int power) { return power >= -2 && power <= 4 ? fmt::format("{:g}", std::pow(10.0, power)) : fmt::format("1e{}", power); }
-
 /// The lines of the decades, with their numbers; few enough to be read.
 std::string axes(const Box2& box, const Decades& x, const Decades& y) {
     std::string out;
@@ -128,6 +126,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
+std::string decadeName(int power) { return power >= -2 && power <= 4 ? fmt::format("{:g}", std::pow(10.0, power)) : fmt::format("1e{}", power); }
 std::string brief(double x) { return fmt::format("{:.3g}", x); }
 
 Decades decadesOf(const std::vector<double>& values) {

@@ -9,6 +9,7 @@ struct ChartPoint {
     double x = 0, y = 0;
     std::string label;            // beside it; and, where `tip` is empty, shown under the mouse
     std::string tip;
+    int run = -1;                 // the sweep's run it is of; -1: none
 };
 struct ChartSeries {
     enum class Look { line, dots, faint_dots, own, usual, better } look = Look::line;
@@ -38,5 +39,7 @@ std::string chartSvg(const std::vector<ChartPanel>& panels);
 std::string escaped(std::string_view text);
 /// A number short enough to read: three digits.
 std::string brief(double x);
+/// A power of ten as an axis names it.
+std::string decadeName(int power);
 
 }  // namespace mb
