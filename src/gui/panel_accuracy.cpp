@@ -163,7 +163,7 @@ void drawCurves(Ui& ui) {
 std::string describe(const PictureSweep& sweep) {
     const Frame& frame = sweep.frame();
     const std::string part = frame.stride == 1 ? "" : fmt::format(", every {}th of the picture's each way", frame.stride);
-    return fmt::format("{} by {} pixels{}; {} settings so far.", frame.size.x, frame.size.y, part, sweep.runs().size());
+    return fmt::format("{} by {} pixels{}; {} settings.", frame.size.x, frame.size.y, part, sweep.runs().size());
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ void drawAxis(const Pen& pen, const Plot& plot, const Decades& axis, bool across
         const float along = share * length;
         const ImVec2 from = across ? ImVec2{plot.lo.x + along, plot.hi.y} : ImVec2{plot.lo.x, plot.hi.y - along};
         if (!zero) pen.list.AddLine(from, across ? ImVec2{from.x, plot.lo.y} : ImVec2{plot.hi.x, from.y}, grid);
-        if (across) pen.words({from.x, from.y + 2}, 0.5f, name, dim);
+        if (across) pen.words({from.x, from.y + 5 * pen.scale}, 0.5f, name, dim);
         else pen.words({from.x - 5 * pen.scale, from.y - pen.font / 2}, 1, name, dim);
     };
     if (axis.zero) line(0, "none", true);
@@ -144,7 +144,7 @@ std::optional<std::size_t> drawPlot(const ChartPanel& panel, ImVec2 size, bool f
     for (const ChartSeries& s : panel.series)
         for (const ChartPoint& p : s.points) xs.push_back(p.x), ys.push_back(p.y);
     const float gap = 4 * pen.scale, line = pen.font + gap, left = pen.sizeOf("1e-88").x + 8 * pen.scale;
-    const Plot plot{panel, decadesOf(xs), decadesOf(ys), {lo.x + left, lo.y + 2 * line + gap}, {hi.x - 10 * pen.scale, hi.y - 2 * line - gap}};
+    const Plot plot{panel, decadesOf(xs), decadesOf(ys), {lo.x + left, lo.y + 2 * line + gap}, {hi.x - 14 * pen.scale, hi.y - 2 * line - 2 * gap}};
     if (plot.hi.x <= plot.lo.x || plot.hi.y <= plot.lo.y) return std::nullopt;
 
     pen.list.PushClipRect(lo, hi, true);
