@@ -240,10 +240,10 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     if (state.count_wanted) count(scene, editor.camera(), state);
     if (!mapped) fillLedger(state);
     if (!mapped && !state.pricing) fillSweep(editor, state);
-    errors_.show(corner_, size_, state);
     const bool measuring = state.pricing || state.sweep_wanted || state.sweeping, mapping = state.errors_wanted && !state.errors_shown && why_.empty();
     if (changed) trial_.reset(), trial_due_ = true;
     if ((trial_ || trial_due_) && refined_ && !put_off_ && !measuring && !mapping && now - changed_at_ > kTrialMs) tryProgram(scene, editor.camera());
+    errors_.show(corner_, size_, state);
     state.compiling = put_off_ || state.count_wanted;
     busy_ = !refined_ || state.compiling || measuring || mapping || trial_ || trial_due_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
