@@ -131,3 +131,29 @@ TEST_CASE("in a real window: a sweep is made of what is shown, a part each frame
     if (!canHaveWindow()) return;
     CHECK(inChild(sweepWanted) == 0);
 }
+
+TEST_CASE("in a real window: Measure draws curves behind frames that go on") {
+    if (!canHaveWindow()) return;
+    const Display display;
+    REQUIRE_FALSE(display.display.empty());
+    ::setenv("DISPLAY", display.display.c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+    const fs::path folder = fs::temp_directory_path() / ("marchbox_accuracy_" + std::to_string(::getpid()));
+    fs::remove_all(folder), fs::create_directories(folder);
+    {
+        const Running running(folder, "");
+        running.click("menu/Settings");
+        running.click("menu/Accuracy");
+        running.click("Accuracy/Measure");
+        std::pair<int, int> sweep{0, 0};
+        for (int i = 0; i < 600 && sweep.first < 20; ++i) rest(50), sweep = running.find("sweep").value_or(sweep);
+        CHECK(sweep.first >= 20);
+        const int frames = running.find("frames")->first;
+        running.click("Accuracy/Show errors");
+        CHECK(running.find("frames")->first > frames);
+        running.click("Accuracy/Stop");
+        CHECK(running.atRest("sweep"));
+        MESSAGE(fmt::format("{} settings measured; the longest frame meanwhile took {} ms", sweep.first, running.find("sweep")->second));
+    }
+    fs::remove_all(folder);
+}
