@@ -10,7 +10,7 @@
 namespace mb::ui {
 namespace {
 
-constexpr float kWide = 255, kHigh = 215;  // of a plot at least, at the font's first size
+constexpr float kWide = 255, kHigh = 188;  // of a plot at least, at the font's first size
 constexpr float kReach = 9;                // from a point at which the mouse is on it
 
 struct Style {
@@ -91,23 +91,34 @@ void drawSeries(const Pen& pen, const Plot& plot, const ChartSeries& s) {
     for (const ChartPoint& p : s.points) pen.mark(style, plot.at(p));
 }
 
-/// What is written beside points, but for what would lie on something written before.
+struct Rect {
+    ImVec2 lo, hi;
+    bool meets(const Rect& r) const { return lo.x < r.hi.x && r.lo.x < hi.x && lo.y < r.hi.y && r.lo.y < hi.y; }
+    bool holds(const Rect& r) const { return lo.x <= r.lo.x && lo.y <= r.lo.y && hi.x >= r.hi.x && hi.y >= r.hi.y; }
+};
+
+/// What is written beside points, in one of their four corners: where there is room in one.
 void drawLabels(const Pen& pen, const Plot& plot) {
-    struct Taken {
-        ImVec2 lo, hi;
-    };
-    std::vector<Taken> taken;
+    std::vector<Rect> taken;
+    for (const ChartSeries& s : plot.panel.series)
+        for (const ChartPoint& p : s.points) {
+            const ImVec2 at = plot.at(p);
+            const float r = styleOf(s.look).size * pen.scale;
+            taken.push_back({{at.x - r, at.y - r}, {at.x + r, at.y + r}});
+        }
     for (const ChartSeries& s : plot.panel.series)
         for (const ChartPoint& p : s.points) {
             if (p.label.empty()) continue;
             const ImVec2 at = plot.at(p), size = pen.sizeOf(p.label);
-            const float gap = 6 * pen.scale;
-            const float x = at.x + gap + size.x > plot.hi.x ? at.x - gap - size.x : at.x + gap, y = std::max(at.y - size.y, plot.lo.y);
-            const Taken here{{x, y}, {x + size.x, y + size.y}};
-            const auto meets = [&](const Taken& t) { return here.lo.x < t.hi.x && t.lo.x < here.hi.x && here.lo.y < t.hi.y && t.lo.y < here.hi.y; };
-            if (std::ranges::any_of(taken, meets)) continue;
-            taken.push_back(here);
-            pen.words(here.lo, 0, p.label, pen.ink(ImGuiCol_Text));
+            const float gap = 5 * pen.scale;
+            for (const ImVec2 corner : {ImVec2{1, -1}, ImVec2{-1, -1}, ImVec2{1, 1}, ImVec2{-1, 1}}) {
+                const float x = corner.x > 0 ? at.x + gap : at.x - gap - size.x, y = corner.y < 0 ? at.y - gap - size.y + 3 * pen.scale : at.y + gap - 3 * pen.scale;
+                const Rect here{{x, y}, {x + size.x, y + size.y}};
+                if (!Rect{plot.lo, plot.hi}.holds(here) || std::ranges::any_of(taken, [&](const Rect& t) { return t.meets(here); })) continue;
+                taken.push_back(here);
+                pen.words(here.lo, 0, p.label, pen.ink(ImGuiCol_Text));
+                break;
+            }
         }
 }
 
