@@ -17,6 +17,7 @@ constexpr glm::ivec2 kAffordable{160, 90};  // pixels that are compared, where n
 
 void ErrorView::follow(const Editor& editor, glm::ivec2 picture, PictureState& io_state) {
     const bool begins = io_state.errors_wanted && !begun_;
+    if (begun_ && !io_state.errors_wanted) io_state.errors_note.clear();
     begun_ = io_state.errors_wanted;
     if (begins) {
         scene_ = editor.scene(), camera_ = editor.camera(), picture_ = picture, revision_ = editor.revision();
@@ -69,7 +70,7 @@ void ErrorView::draw(const Editor& editor, const TruePictureWork& truth, Rendere
         return;
     }
     if (renderer.putOff()) {
-        io_state.errors_note = "Its program is being compiled.";
+        io_state.errors_note = "Waiting for the program that counts.";
         return;
     }
     upload(errorMap(picture, truth.picture()), frame.size);

@@ -89,8 +89,12 @@ void placeDocked(const Ui& ui, const Entry& entry) {
 void placeFloating(const Entry& entry, int order) {
     const float scale = ImGui::GetFontSize() / 15, step = ImGui::GetFrameHeight(), by = static_cast<float>(order);
     ImGui::SetNextWindowPos({16 + step * by, 1.5f * step + 1.25f * step * by}, ImGuiCond_FirstUseEver);
-    if (entry.height > 0) ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
-    const float most = std::max(ImGui::GetIO().DisplaySize.y - 4 * step, 100.0f);
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    if (entry.height > 0) {
+        ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints({100, 60}, {std::max(screen.x, 100.0f), std::max(screen.y - 2 * step, 60.0f)});
+    }
+    const float most = std::max(screen.y - 4 * step, 100.0f);
     if (entry.height == 0) ImGui::SetNextWindowSizeConstraints({entry.width * scale, 0}, {entry.width * scale * 2, most});
 }
 
@@ -102,8 +106,8 @@ int floatingBefore(std::size_t row) {
 /// A window that was made small and large again leaves no panel beyond its edges, nor does one that grew.
 void keepInside(const Ui& ui) {
     const ImVec2 at = ImGui::GetWindowPos(), top = ui.picture_corner;
-    const float lowest = top.y + ui.picture_size.y - ImGui::GetWindowHeight();
-    const ImVec2 inside{std::max(at.x, 0.0f), std::max(std::min(at.y, lowest), top.y)};
+    const float lowest = top.y + ui.picture_size.y - ImGui::GetWindowHeight(), rightmost = ImGui::GetIO().DisplaySize.x - ImGui::GetWindowWidth();
+    const ImVec2 inside{std::max(std::min(at.x, rightmost), 0.0f), std::max(std::min(at.y, lowest), top.y)};
     if (inside.x != at.x || inside.y != at.y) ImGui::SetWindowPos(inside);
 }
 
