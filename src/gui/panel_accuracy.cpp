@@ -35,7 +35,8 @@ void follow(Ui& ui) {
         if (!a.current) ui.stopMeasuring();
     }
     if (a.sweeping_motion) a.sweeping_motion = a.motions->step();
-    if (picture.sweeping || a.stopped || a.motions || !a.current) return;
+    if (picture.sweeping || a.stopped || a.asked_motion || !a.current) return;
+    a.asked_motion = true;
     const Scene& scene = picture.sweep->scene();
     if (a.motion_knobs = knobsOf(scene, true); a.motion_knobs.empty() || PhysicsWorld(scene).bodies().empty()) return;
     a.motions.emplace(scene), a.sweeping_motion = true;
@@ -99,7 +100,7 @@ void drawBudget(Ui& ui) {
     const std::vector<std::size_t> line = frontOf(runs, Error::color, Cost::evaluations);
     if (line.empty()) return;
     const double least = std::max(runs[line.back()].errors[Error::color], rowOf(Error::color).least), most = std::max(runs[line.front()].errors[Error::color], 1.01 * least);
-    if (a.most_error == 0) a.most_error = runs[kOwnRun].failed() ? most : runs[kOwnRun].errors[Error::color];
+    if (a.picked.empty()) a.most_error = runs[kOwnRun].failed() ? most : runs[kOwnRun].errors[Error::color];
     a.most_error = std::clamp(a.most_error, least, most);
     const bool moved = ui::numbers({"largest color error", "", "picks the cheapest setting whose picture is at most so wrong, and sets the knobs; 1 is from black to white", least, most, least, most, true}, &a.most_error, 1);
     const bool released = ImGui::IsItemDeactivatedAfterEdit();

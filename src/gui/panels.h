@@ -51,6 +51,7 @@ struct KeyPress {
 struct AccuracyMemory {
     std::optional<MotionSweep> motions;   // of the scene of PictureState's sweep
     std::vector<const Knob*> motion_knobs;
+    bool asked_motion = false;            // whether anything moves, once the picture was done
     bool sweeping_motion = false;         // it is to go on
     bool stopped = false;                 // before both were done
     bool current = false;                 // the scene is still the one measured, but for its knobs; seen from the same place
@@ -63,8 +64,8 @@ struct AccuracyMemory {
     std::uint64_t charts_revision = 0;
     std::size_t charts_runs = 0;
     // The budget.
-    double most_error = 0;                // 0: not asked yet
-    std::string picked;
+    double most_error = 0;
+    std::string picked;                   // what was, in words; empty: the slider was not moved yet
 };
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
