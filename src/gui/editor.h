@@ -3,7 +3,7 @@
 // window, no panels, no OpenGL: a panel draws what it reads here and calls the methods below.
 //
 // Every edit keeps the scene such that it can be saved: a command that would break that changes nothing and says why.
-#include "core/scene/scene.h"
+#include "core/accuracy/run.h"
 #include "gui/orbit.h"
 #include "gui/simulation.h"
 
@@ -111,6 +111,12 @@ public:
     void throwAbout();
     /// Lets wall time pass.
     void advance(double seconds);
+
+    // What accuracy costs (editor_accuracy.cpp).
+    /// Whether it shows that scene from there, whatever the knobs are at.
+    bool stillShows(const Scene& scene, const Camera& from) const;
+    /// Turns the knobs of a picture, or of a motion, to what that setting has them at, and says which; whatever else there is stays.
+    void setKnobs(const Setting& setting, bool motion);
 
 private:
     void edited(bool moves_bodies);

@@ -50,6 +50,7 @@ void setLook(float scale) {
     c[ImGuiCol_SliderGrab] = {0.36f, 0.52f, 0.78f, 0.65f};
     c[ImGuiCol_SliderGrabActive] = {0.45f, 0.65f, 0.95f, 0.85f};
     c[ImGuiCol_Button] = {0.24f, 0.30f, 0.40f, 1};
+    c[ImGuiCol_PlotHistogram] = {0.26f, 0.40f, 0.62f, 1};  // what is done of a progress bar
     c[ImGuiCol_TextDisabled] = {0.60f, 0.62f, 0.66f, 1};
     style.ScaleAllSizes(scale);
 }

@@ -57,6 +57,8 @@ const Entry kEntries[] = {
     {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
     {.menu = "Settings", .name = "Effects", .shortcut = {GLFW_KEY_F2, false, "F2"}, .tip = "what the scene calls for, by which records, and what it costs",
      .draw = drawEffects, .width = 760, .height = 520},
+    {.menu = "Settings", .name = "Accuracy", .shortcut = {GLFW_KEY_F3, false, "F3"}, .tip = "what the picture and the motion are wrong by, and what less costs",
+     .draw = drawAccuracy, .width = 600, .height = 600},
 };
 
 constexpr MouseControl kMouse[] = {
@@ -87,8 +89,12 @@ void placeDocked(const Ui& ui, const Entry& entry) {
 void placeFloating(const Entry& entry, int order) {
     const float scale = ImGui::GetFontSize() / 15, step = ImGui::GetFrameHeight(), by = static_cast<float>(order);
     ImGui::SetNextWindowPos({16 + step * by, 1.5f * step + 1.25f * step * by}, ImGuiCond_FirstUseEver);
-    if (entry.height > 0) ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
-    const float most = std::max(ImGui::GetIO().DisplaySize.y - 4 * step, 100.0f);
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    if (entry.height > 0) {
+        ImGui::SetNextWindowSize({entry.width * scale, entry.height * scale}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints({100, 60}, {std::max(screen.x, 100.0f), std::max(screen.y - 2 * step, 60.0f)});
+    }
+    const float most = std::max(screen.y - 4 * step, 100.0f);
     if (entry.height == 0) ImGui::SetNextWindowSizeConstraints({entry.width * scale, 0}, {entry.width * scale * 2, most});
 }
 
@@ -100,8 +106,8 @@ int floatingBefore(std::size_t row) {
 /// A window that was made small and large again leaves no panel beyond its edges, nor does one that grew.
 void keepInside(const Ui& ui) {
     const ImVec2 at = ImGui::GetWindowPos(), top = ui.picture_corner;
-    const float lowest = top.y + ui.picture_size.y - ImGui::GetWindowHeight();
-    const ImVec2 inside{std::max(at.x, 0.0f), std::max(std::min(at.y, lowest), top.y)};
+    const float lowest = top.y + ui.picture_size.y - ImGui::GetWindowHeight(), rightmost = ImGui::GetIO().DisplaySize.x - ImGui::GetWindowWidth();
+    const ImVec2 inside{std::max(std::min(at.x, rightmost), 0.0f), std::max(std::min(at.y, lowest), top.y)};
     if (inside.x != at.x || inside.y != at.y) ImGui::SetWindowPos(inside);
 }
 
@@ -160,12 +166,19 @@ void Ui::unlessUnsaved(std::function<void()> what) {
     if (!after) after = std::move(what);
 }
 
+void Ui::stopMeasuring() {
+    AccuracyMemory& a = accuracy;
+    a.stopped |= picture.sweeping || picture.sweep_wanted || a.sweeping_motion;
+    picture.sweeping = picture.sweep_wanted = a.sweeping_motion = false;
+}
+
 void drawInterface(Ui& ui) {
     drawMenuBar(ui);
     layOut(ui);
     for (std::size_t i = 0; i < entries().size(); ++i)
         if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
     if (!ui.isOpen("Effects")) ui.picture.pricing = ui.pricing_motion = false;  // nobody waits for it
+    if (!ui.isOpen("Accuracy")) ui.stopMeasuring(), ui.picture.errors_wanted = false;
     drawStatusBar(ui);
     drawMessage(ui);
     drawQuestion(ui);

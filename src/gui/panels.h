@@ -1,9 +1,12 @@
 #pragma once
 // The interface: one table of panels and commands, which the menus, the windows, the keys and the list of controls walk.
 // Everything here needs Dear ImGui and no window.
+#include "core/accuracy/chart.h"
 #include "core/render/ledger.h"
+#include "core/render/picture_sweep.h"
 #include "gui/editor.h"
 #include "physics/ledger.h"
+#include "physics/motion_sweep.h"
 
 #include <imgui.h>
 
@@ -29,12 +32,40 @@ struct PictureState {
     std::string counts;
     std::optional<PictureLedger> ledger;  // asked for by a panel; the viewport fills it whenever the picture is at rest
     bool pricing = false;                 // it is not full yet
+    std::optional<PictureSweep> sweep;    // the same of what accuracy costs
+    bool sweeping = false;                // it is to go on
+    bool sweep_wanted = false;            // of the scene as it is now; the viewport makes it, or says why it cannot
+    std::string sweep_why;
+    bool errors_wanted = false;           // the picture tinted by its errors in its place; off by itself where the view changes
+    bool errors_shown = false;            // it shows, of the knobs as they are
+    std::string errors_note;              // what there is to say of it
 };
 
 /// A key that went down, with what was held beside it.
 struct KeyPress {
     int key = 0;        // GLFW's number
     bool ctrl = false, repeated = false;
+};
+
+/// What the Accuracy panel remembers.
+struct AccuracyMemory {
+    std::optional<MotionSweep> motions;   // of the scene of PictureState's sweep
+    std::vector<const Knob*> motion_knobs;
+    bool asked_motion = false;            // whether anything moves, once the picture was done
+    bool sweeping_motion = false;         // it is to go on
+    bool stopped = false;                 // before both were done
+    bool current = false;                 // the scene is still the one measured, but for its knobs; seen from the same place
+    std::uint64_t compared_revision = 0;  // when that was last asked
+    // What is shown, and what it was made from.
+    const Knob* knob = nullptr;           // null: all together
+    bool motion = false;
+    std::vector<ChartPanel> charts;
+    std::string words;
+    std::uint64_t charts_revision = 0;
+    std::size_t charts_runs = 0;
+    // The budget.
+    double most_error = 0;
+    std::string picked;                   // what was, in words; empty: the slider was not moved yet
 };
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -73,6 +104,7 @@ struct Ui {
     std::optional<MotionLedger> motion_ledger;
     bool pricing_motion = false;       // it is not full yet
     std::uint64_t priced_revision = 0; // that both ledgers are of
+    AccuracyMemory accuracy;
     double message_until = kForever;   // ImGui's time when it goes by itself
     std::string message_shown;
 
@@ -80,6 +112,8 @@ struct Ui {
     void show(const char* panel, bool open = true);
     /// Calls `what` at once if nothing is unsaved; else asks first.
     void unlessUnsaved(std::function<void()> what);
+    /// The sweeps rest, with the runs they have.
+    void stopMeasuring();
 };
 
 /// A key with what is held down beside it. `key` is GLFW's number for it, 0 for none.
@@ -130,6 +164,7 @@ void drawDebug(Ui& ui);
 void drawConstants(Ui& ui);
 void drawPicture(Ui& ui);
 void drawEffects(Ui& ui);
+void drawAccuracy(Ui& ui);
 // What surrounds them (bars.cpp, question.cpp).
 void drawMenuBar(Ui& ui);
 void drawStatusBar(Ui& ui);

@@ -1,5 +1,7 @@
 #include "gui/viewport.h"
 
+#include "core/render/budget.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -156,6 +158,24 @@ void Viewport::fillLedger(PictureState& state) {
     showKept();
 }
 
+/// The same of the sweep, which is made first: how large, a draw that counts says.
+void Viewport::fillSweep(const Editor& editor, PictureState& state) {
+    if (!(state.sweep_wanted || (state.sweeping && state.sweep)) || !refined_ || put_off_) return;
+    const double start = nowMs();
+    priced_ = true;
+    if (state.sweep_wanted) {
+        const PictureSweep::Affordable affordable = PictureSweep::affordable(editor.scene(), editor.camera(), size_, *renderer_);
+        if (!affordable.put_off) {
+            state.sweep_wanted = false, state.sweep_why = affordable.why, state.sweeping = affordable.why.empty();
+            if (state.sweeping) state.sweep.emplace(editor.scene(), frameOf(editor.camera(), size_, affordable.size), affordable.plan);
+        }
+    } else {
+        do state.sweeping = state.sweep->step(*renderer_);
+        while (state.sweeping && !renderer_->putOff() && nowMs() - start < kFrameMs / 2);
+    }
+    showKept();
+}
+
 /// Each program is tried against the general one once, when nothing else is to be done, and dropped if it is the slower one.
 void Viewport::tryProgram(const Scene& scene, const Camera& camera) {
     constexpr glm::ivec2 kTrialSize{160, 90};
@@ -193,6 +213,10 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     const double now = nowMs();
     const bool changed = moved || editor.revision() != drawn_revision_, compiled = put_off_ && !renderer_->compiling();
     showKept();
+    errors_.follow(editor, size_, state);
+    // Not between two tiles, which are of one picture.
+    const bool mapped = !changed && !compiled && !put_off_ && why_.empty() && (refined_ || next_row_ == 0) && now - changed_at_ > kStillMs &&
+                        errors_.work(editor, *renderer_, state);
     if (changed) drawn_revision_ = editor.revision(), changed_at_ = now;
     if (changed || compiled) {
         if (scene.render.samples == 1) {
@@ -204,6 +228,9 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
             refined_ = false;
         }
         if (!why_.empty()) refined_ = true;
+    } else if (mapped) {
+        priced_ = true;
+        showKept();
     } else if (!refined_ && !put_off_ && now - changed_at_ > kStillMs) {
         drawTile(scene, editor.camera());
     }
@@ -211,11 +238,14 @@ void Viewport::show(const Editor& editor, glm::ivec2 window, glm::ivec2 corner, 
     if (last_stays && moved && !priced_) renderer_->present(corner_, size_), keepShown(corner_, size_);
     else if (last_stays) showKept();
     if (state.count_wanted) count(scene, editor.camera(), state);
-    fillLedger(state);
+    if (!mapped) fillLedger(state);
+    if (!mapped && !state.pricing) fillSweep(editor, state);
+    const bool measuring = state.pricing || state.sweep_wanted || state.sweeping, mapping = state.errors_wanted && !state.errors_shown && why_.empty();
     if (changed) trial_.reset(), trial_due_ = true;
-    if ((trial_ || trial_due_) && refined_ && !put_off_ && !state.pricing && now - changed_at_ > kTrialMs) tryProgram(scene, editor.camera());
+    if ((trial_ || trial_due_) && refined_ && !put_off_ && !measuring && !mapping && now - changed_at_ > kTrialMs) tryProgram(scene, editor.camera());
+    errors_.show(corner_, size_, state);
     state.compiling = put_off_ || state.count_wanted;
-    busy_ = !refined_ || state.compiling || state.pricing || trial_ || trial_due_;
+    busy_ = !refined_ || state.compiling || measuring || mapping || trial_ || trial_due_;
     state.drawn = drawn_, state.full = size_, state.ms = shown_ms_, state.why = why_;
     state.grid = renderer_->grid();
     state.refining = !refined_ && next_row_ > 0;

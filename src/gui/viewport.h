@@ -3,6 +3,7 @@
 // it is drawn again with all its pixels, a few rows of tiles a frame, and then not at all.
 #include "core/render/renderer.h"
 #include "gui/editor.h"
+#include "gui/error_view.h"
 #include "gui/panels.h"
 
 #include <memory>
@@ -28,6 +29,7 @@ private:
     void drawPreview(const Scene& scene, const Camera& camera);
     void drawTile(const Scene& scene, const Camera& camera);
     void fillLedger(PictureState& state);
+    void fillSweep(const Editor& editor, PictureState& state);
     void tryProgram(const Scene& scene, const Camera& camera);
     void count(const Scene& scene, const Camera& camera, PictureState& state);
     bool draw(const Scene& scene, const Camera& camera, glm::ivec2 pixels);
@@ -50,7 +52,8 @@ private:
     std::optional<Pricing> trial_;     // of the scene's own program against the general one
     std::set<std::string> tried_;      // texts of programs that had theirs
     bool trial_due_ = false;           // the picture has changed since a trial was thought of
-    bool priced_ = false;              // the renderer's picture is the ledger's, not the one shown
+    ErrorView errors_;
+    bool priced_ = false;              // the renderer's picture is the ledger's or another's, not the one shown
     bool put_off_ = false;             // the picture wanted waits for its program; the last one is shown
     double ms_ = 0, refining_ms_ = 0, shown_ms_ = 0;  // of the last draw, of the rows so far, of the picture shown
     std::string why_;

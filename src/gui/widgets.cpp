@@ -11,12 +11,17 @@ namespace mb::ui {
 std::vector<Seen>* seen = nullptr;
 const char* seen_panel = "";
 
-void note(std::string_view label) {
-    if (!seen) return;
+namespace {
+
+void noteAt(std::string_view label, ImVec2 min, ImVec2 max, bool visible) {
     const std::size_t hidden = label.find("##");
-    seen->push_back({seen_panel, std::string(label.substr(0, hidden == 0 ? label.size() : hidden)), ImGui::GetItemRectMin(),
-                     ImGui::GetItemRectMax(), ImGui::IsItemVisible()});
+    if (seen) seen->push_back({seen_panel, std::string(label.substr(0, hidden == 0 ? label.size() : hidden)), min, max, visible});
 }
+
+}  // namespace
+
+void note(std::string_view label) { noteAt(label, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ImGui::IsItemVisible()); }
+void note(std::string_view label, ImVec2 min, ImVec2 max) { noteAt(label, min, max, ImGui::IsRectVisible(min, {max.x + 1, max.y + 1})); }
 
 namespace {
 

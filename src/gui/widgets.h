@@ -22,6 +22,8 @@ extern std::vector<Seen>* seen;
 extern const char* seen_panel;
 /// Notes the control drawn last.
 void note(std::string_view label);
+/// Notes a place in the current window.
+void note(std::string_view label, ImVec2 min, ImVec2 max);
 
 /// One line of numbers, as a row of the tables has it.
 struct Row {

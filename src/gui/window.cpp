@@ -163,7 +163,7 @@ void loop(WindowContext& context, Editor& editor, const EditorOptions& options) 
     std::string title;
     while (!ui.quit) {
         // A button held down may repeat what it does.
-        const double passed = pace.next(viewport.busy() || ui.pricing_motion || editor.moving() || ImGui::IsAnyMouseDown(), staysFor(ui));
+        const double passed = pace.next(viewport.busy() || ui.pricing_motion || ui.accuracy.sweeping_motion || editor.moving() || ImGui::IsAnyMouseDown(), staysFor(ui));
         ui.frames_per_second = pace.framesPerSecond();
         editor.advance(passed);
         if (glfwWindowShouldClose(window)) {

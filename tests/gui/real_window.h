@@ -84,10 +84,13 @@ struct Frames {
     int drawn = 0, compiling = 0;  // all, and those that said "compiling"
     double longest = 0, all = 0;   // ms, of the last of those in a row
     bool went_on = false;
+    double longest_measuring = 0;  // ms, of those in which a sweep went on
+    bool measured = false;
     Clock::time_point last = Clock::now();
 
     void add(const PictureState& picture) {
         const double ms = std::chrono::duration<double, std::milli>(Clock::now() - last).count();
+        if (std::exchange(measured, picture.sweeping)) longest_measuring = std::max(longest_measuring, ms);
         last = Clock::now();
         ++drawn;
         // The first in a row may have come after a rest; the one after the last has drawn the new picture, too.
@@ -116,6 +119,7 @@ struct Running {
             for (const ui::Seen& s : seen)
                 if (s.visible) out << s.panel << '/' << s.label << '\t' << (s.min.x + s.max.x) / 2 << ' ' << (s.min.y + s.max.y) / 2 << '\n';
             out << "frames\t" << frames.drawn << ' ' << frames.compiling << "\ncompiling\t" << frames.longest << ' ' << frames.all << '\n';
+            out << "sweep\t" << (ui.picture.sweep ? ui.picture.sweep->runs().size() : 0) << ' ' << frames.longest_measuring << '\n';
             out << "motion\t" << ui.editor.playing() << ' ' << ui.editor.simulation().asleep() << "\nend\n";
             out.close();
             fs::rename(folder / "seen.new", folder / "seen");

@@ -48,26 +48,47 @@ std::string stroke(double x1, double y1, double x2, double y2, std::string_view 
     return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, color);
 }
 
-std::string decadeName(int power) { return power >= -2 && power <= 4 ? fmt::format("{:g}", std::pow(10.0, power)) : fmt::format("1e{}", power); }
-
-/// The lines of the decades, with their numbers; few enough to be read.
-std::string axes(const Box2& box, const Decades& x, const Decades& y) {
+/// The lines of an axis with their numbers; those that would overlap have none.
+template <class Line> void eachLine(const Axis& axis, double length, double room, Line line) {
+    double last = axis.zero ? 0 : -room;
+    for (const double value : axis.lines) {
+        const double share = placeOn(axis, value, kZeroColumn), at = share * length;
+        const bool named = at - last >= room;
+        line(share, named ? lineName(value) : std::string());
+        if (named) last = at;
+    }
+}
+std::string axes(const Box2& box, const Axis& x, const Axis& y) {
     std::string out;
-    const auto each = [](const Decades& d) { return std::max(1, (d.hi - d.lo + 5) / 6); };
-    for (int p = x.lo; p <= x.hi; p += each(x)) {
-        const double at = box.atX(placeOn(x, std::pow(10.0, p), kZeroColumn));
-        out += stroke(at, box.y, at, box.y + box.height, "#e5e7eb") + words(at, box.y + box.height + 15, "middle", 11, decadeName(p));
-    }
-    for (int p = y.lo; p <= y.hi; p += each(y)) {
-        const double at = box.atY(placeOn(y, std::pow(10.0, p), kZeroColumn));
-        out += stroke(box.x, at, box.x + box.width, at, "#e5e7eb") + words(box.x - 6, at + 4, "end", 11, decadeName(p));
-    }
+    eachLine(x, box.width, 36, [&](double share, const std::string& name) {
+        const double at = box.atX(share);
+        out += stroke(at, box.y, at, box.y + box.height, "#e5e7eb") + words(at, box.y + box.height + 15, "middle", 11, name);
+    });
+    eachLine(y, box.height, 15, [&](double share, const std::string& name) {
+        const double at = box.atY(share);
+        out += stroke(box.x, at, box.x + box.width, at, "#e5e7eb") + words(box.x - 6, at + 4, "end", 11, name);
+    });
     if (x.zero) out += words(box.atX(0), box.y + box.height + 15, "middle", 11, "none");
     if (y.zero) out += words(box.x - 6, box.atY(0) + 4, "end", 11, "none");
     return out + fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#6b7280\"/>\n", box.x, box.y, box.width, box.height);
 }
 
-std::string seriesSvg(const ChartSeries& s, const Box2& box, const Decades& x, const Decades& y) {
+/// What is written beside points: only where nothing else is.
+class Labels {
+public:
+    std::string at(double x, double y, bool leftwards, const std::string& text) {
+        const double width = 5.8 * static_cast<double>(text.size()), left = leftwards ? x - width : x;
+        for (const Box2& t : taken_)
+            if (left < t.x + t.width && t.x < left + width && std::fabs(y - t.y) < 10) return {};
+        taken_.push_back({left, y, width, 10});
+        return words(x, y, leftwards ? "end" : "start", 10, text, " fill=\"#374151\"");
+    }
+
+private:
+    std::vector<Box2> taken_;
+};
+
+std::string seriesSvg(const ChartSeries& s, const Box2& box, const Axis& x, const Axis& y, Labels& io_labels) {
     const Style style = styleOf(s.look);
     std::string path, marks;
     for (const ChartPoint& p : s.points) {
@@ -76,7 +97,7 @@ std::string seriesSvg(const ChartSeries& s, const Box2& box, const Decades& x, c
         const std::string tip = p.tip.empty() ? p.label : p.tip;
         marks += fmt::format("<g>{}{}</g>\n", markAt(style, px, py), tip.empty() ? "" : fmt::format("<title>{}</title>", escaped(tip)));
         const bool at_right = px > box.x + 0.8 * box.width;
-        if (!p.label.empty()) marks += words(px + (at_right ? -7 : 7), py - 6, at_right ? "end" : "start", 10, p.label, " fill=\"#374151\"");
+        if (!p.label.empty()) marks += io_labels.at(px + (at_right ? -7 : 7), py - 6, at_right, p.label);
     }
     if (s.look == ChartSeries::Look::line && s.points.size() > 1)
         path = fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", path, style.color);
@@ -89,13 +110,14 @@ std::string panelSvg(const ChartPanel& panel, double left, double top) {
     std::vector<double> xs, ys;
     for (const ChartSeries& s : panel.series)
         for (const ChartPoint& p : s.points) xs.push_back(p.x), ys.push_back(p.y);
-    const Decades x = decadesOf(xs), y = decadesOf(ys);
+    const Axis x = axisOf(xs), y = axisOf(ys);
+    Labels labels;
     std::string out = words(box.x + box.width / 2, top + 20, "middle", 13, panel.title, " font-weight=\"bold\"");
     out += axes(box, x, y);
     out += words(box.x + box.width / 2, box.y + box.height + 36, "middle", 12, panel.x_label);
     const double side = left + 14, middle = box.y + box.height / 2;
     out += words(side, middle, "middle", 12, panel.y_label, fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", side, middle));
-    for (const ChartSeries& s : panel.series) out += seriesSvg(s, box, x, y);
+    for (const ChartSeries& s : panel.series) out += seriesSvg(s, box, x, y, labels);
     if (xs.empty()) out += words(box.x + box.width / 2, middle, "middle", 12, "every setting failed");
     return out;
 }
@@ -129,24 +151,33 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
+std::string lineName(double value) { return value >= 0.01 && value < 1e5 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value); }
 std::string brief(double x) { return fmt::format("{:.3g}", x); }
 
-Decades decadesOf(const std::vector<double>& values) {
+Axis axisOf(const std::vector<double>& values) {
     double least = INFINITY, most = 0;
-    Decades d;
+    Axis axis;
     for (const double v : values) {
-        if (!(v > 0)) d.zero = true;
+        if (!(v > 0)) axis.zero = true;
         else least = std::min(least, v), most = std::max(most, v);
     }
-    if (most == 0) return d;
-    d.lo = static_cast<int>(std::floor(std::log10(least) + 1e-9)), d.hi = static_cast<int>(std::ceil(std::log10(most) - 1e-9));
-    if (d.hi == d.lo) ++d.hi;
-    return d;
+    if (most == 0) return axis;
+    constexpr double kClose = 40;
+    const bool close = most < kClose * least;
+    std::vector<double> lines;
+    for (int p = static_cast<int>(std::floor(std::log10(least))) - 1; lines.empty() || lines.back() < most; ++p)
+        for (const double times : {1.0, 2.0, 5.0})
+            if (times == 1 || close) lines.push_back(times * std::pow(10.0, p));
+    // From the last line that is not above the least to the first that is not below the most.
+    const auto end = std::ranges::find_if(lines, [&](double l) { return l >= most * (1 - 1e-9); }) + 1;
+    const auto begin = std::ranges::find_if(lines, [&](double l) { return l > least * (1 + 1e-9); }) - 1;
+    axis.lines.assign(std::min(begin, end - 2), end);
+    return axis;
 }
 
-double placeOn(const Decades& axis, double value, double gap) {
+double placeOn(const Axis& axis, double value, double gap) {
     if (!(value > 0)) return 0;
-    const double share = (std::log10(value) - axis.lo) / (axis.hi - axis.lo);
+    const double share = std::log(value / axis.lines.front()) / std::log(axis.lines.back() / axis.lines.front());
     return axis.zero ? gap + (1 - gap) * share : share;
 }
 

@@ -9,6 +9,7 @@ struct ChartPoint {
     double x = 0, y = 0;
     std::string label;            // beside it; and, where `tip` is empty, shown under the mouse
     std::string tip;
+    int run = -1;                 // the sweep's run it is of; -1: none
 };
 struct ChartSeries {
     enum class Look { line, dots, faint_dots, own, usual, better } look = Look::line;
@@ -21,14 +22,15 @@ struct ChartPanel {
     std::vector<ChartSeries> series;
 };
 
-/// The decades an axis shows, from 10^lo to 10^hi: what holds all values that are not 0, at least one.
-struct Decades {
-    int lo = 0, hi = 1;
+/// A logarithmic axis that holds all of some values but those that are 0: its lines are powers of ten, or 1, 2 and 5 times these where
+/// the values are close together. The first is its beginning and the last its end.
+struct Axis {
+    std::vector<double> lines{1, 10};
     bool zero = false;            // some value is 0
 };
-Decades decadesOf(const std::vector<double>& values);
+Axis axisOf(const std::vector<double>& values);
 /// Where a value lies on an axis, 0 to 1. `gap` is the width of the column of 0, as a share of the axis, where there is one.
-double placeOn(const Decades& axis, double value, double gap);
+double placeOn(const Axis& axis, double value, double gap);
 inline constexpr double kZeroColumn = 0.09;
 
 /// The panels beside one another, three in a row, with a legend below. Any text is allowed in what it is given.
@@ -38,5 +40,7 @@ std::string chartSvg(const std::vector<ChartPanel>& panels);
 std::string escaped(std::string_view text);
 /// A number short enough to read: three digits.
 std::string brief(double x);
+/// A line's number as an axis names it.
+std::string lineName(double value);
 
 }  // namespace mb

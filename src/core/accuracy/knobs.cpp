@@ -120,11 +120,23 @@ Setting turned(Setting setting, const Knob& knob, double value) {
     return setting;
 }
 
-Setting defaultsOf(Setting setting, bool motion) {
+Setting withKnobs(Setting setting, const Setting& of, bool motion) {
     for (const Knob& knob : knobs())
-        if (knob.ofMotion() == motion) setting = turned(setting, knob, valueOf({}, knob));
+        if (knob.ofMotion() == motion) setting = turned(setting, knob, valueOf(of, knob));
     return setting;
 }
+bool sameKnobs(const Setting& a, const Setting& b, bool motion) {
+    return std::ranges::all_of(knobs(), [&](const Knob& knob) { return knob.ofMotion() != motion || valueOf(a, knob) == valueOf(b, knob); });
+}
+bool sameButKnobs(const Scene& a, const Scene& b) {
+    const auto plain = [](const Scene& scene) {
+        Scene out = withSetting(scene, defaultsOf(defaultsOf(settingOf(scene), false), true));
+        out.render.show_undecided = false, out.cameras.clear(), out.comment.clear();
+        return out;
+    };
+    return sameScene(plain(a), plain(b));
+}
+Setting defaultsOf(Setting setting, bool motion) { return withKnobs(setting, {}, motion); }
 Setting settingOf(const Scene& scene) { return {scene.render, scene.physics}; }
 Scene withSetting(Scene scene, const Setting& setting) {
     scene.render = setting.render, scene.physics = setting.physics;

@@ -28,6 +28,11 @@ double valueOf(const Setting& setting, const Knob& knob);
 Setting turned(Setting setting, const Knob& knob, double value);
 
 Setting settingOf(const Scene& scene);
+/// The setting with the knobs of a picture, or of a motion, at what another has them at; and whether two have them at the same.
+Setting withKnobs(Setting setting, const Setting& of, bool motion);
+bool sameKnobs(const Setting& a, const Setting& b, bool motion);
+/// Whether two scenes show and move the same things, whatever the knobs are at and wherever their cameras stand.
+bool sameButKnobs(const Scene& a, const Scene& b);
 /// The setting with every knob of a picture, or of a motion, at the program's default.
 Setting defaultsOf(Setting setting, bool motion);
 Scene withSetting(Scene scene, const Setting& setting);

@@ -25,43 +25,47 @@ std::vector<const Run*> pointsOf(const Sweep& sweep, const Knob& knob) {
         if (run.knob == knob.key && !run.failed()) points.push_back(&run);
     return points;
 }
-bool isOwn(const Sweep& sweep, const Run& run, const Knob& knob) { return run.value == valueOf(sweep.runs[kOwnRun].setting, knob); }
+const Setting& ownOf(const Sweep& sweep) { return sweep.stands ? *sweep.stands : sweep.runs[kOwnRun].setting; }
+bool isOwn(const Sweep& sweep, const Run& run) { return sameKnobs(run.setting, ownOf(sweep), sweep.motion); }
 
 std::string tipOf(const Run& run, const Setting& own, Error error, Cost cost) {
     const std::string what = run.knob.empty() ? differences(run.setting, own) : fmt::format("{}={}", run.knob, brief(run.value));
     return fmt::format("{}: {} {}, {} {} {}", what.empty() ? "the scene's own setting" : what, rowOf(error).name, brief(run.errors[error]), brief(run.costs[cost]), rowOf(cost).name, rowOf(cost).unit);
 }
-ChartPoint pointOf(const Run& run, const Setting& own, Error error, Cost cost, std::string label = {}) {
+ChartPoint pointOf(const Sweep& sweep, const Run& run, Error error, Cost cost, std::string label = {}) {
     constexpr double kNone = 1e-3;  // of the least that counts: on a logarithmic axis no more is worth a decade
-    return {run.errors[error] > kNone * rowOf(error).least ? run.errors[error] : 0, run.costs[cost], std::move(label), tipOf(run, own, error, cost)};
+    return {run.errors[error] > kNone * rowOf(error).least ? run.errors[error] : 0, run.costs[cost], std::move(label), tipOf(run, ownOf(sweep), error, cost), static_cast<int>(&run - sweep.runs.data())};
 }
 bool hasBoth(const Run& run, Error error, Cost cost) { return !run.failed() && run.errors.has(error) && run.costs.has(cost); }
 
 ChartPanel knobPanel(const Sweep& sweep, const Knob& knob, Error error, Cost cost) {
-    const Setting& own = sweep.runs[kOwnRun].setting;
     ChartSeries line{ChartSeries::Look::line, std::string(knob.key), {}}, mine{ChartSeries::Look::own, "the scene's own", {}};
     for (const Run* run : pointsOf(sweep, knob)) {
         if (!hasBoth(*run, error, cost)) continue;
-        line.points.push_back(pointOf(*run, own, error, cost, brief(run->value)));
-        if (isOwn(sweep, *run, knob)) mine.points.push_back(pointOf(*run, own, error, cost));
+        line.points.push_back(pointOf(sweep, *run, error, cost, brief(run->value)));
+        if (isOwn(sweep, *run)) mine.points.push_back(pointOf(sweep, *run, error, cost));
     }
     return {fmt::format("{}: {}", knob.key, rowOf(error).name), axisName(rowOf(error)) + " (less is better)", axisName(rowOf(cost)), {line, mine}};
 }
 
 ChartPanel overviewPanel(const Sweep& sweep, Error error) {
     const Cost cost = sweep.terms.cost;
-    const Setting& own = sweep.runs[kOwnRun].setting;
     using Look = ChartSeries::Look;
     ChartSeries all{Look::faint_dots, "a setting tried", {}}, line{Look::line, "nothing is both cheaper and less wrong", {}}, mine{Look::own, "the scene's own", {}},
         defaults{Look::usual, "the program's defaults", {}}, next{Look::better, "the nearest better one", {}};
     for (const Run& run : sweep.runs)
-        if (hasBoth(run, error, cost)) all.points.push_back(pointOf(run, own, error, cost));
-    for (const std::size_t i : frontOf(sweep.runs, error, cost)) line.points.push_back(pointOf(sweep.runs[i], own, error, cost));
+        if (hasBoth(run, error, cost)) all.points.push_back(pointOf(sweep, run, error, cost));
+    for (const std::size_t i : frontOf(sweep.runs, error, cost)) line.points.push_back(pointOf(sweep, sweep.runs[i], error, cost));
     const auto mark = [&](ChartSeries& series, std::size_t i) {
-        if (hasBoth(sweep.runs[i], error, cost)) series.points.push_back(pointOf(sweep.runs[i], own, error, cost));
+        if (hasBoth(sweep.runs[i], error, cost)) series.points.push_back(pointOf(sweep, sweep.runs[i], error, cost));
     };
-    mark(mine, kOwnRun), mark(defaults, kDefaultRun);
-    if (const auto nearest = nearestBetter(sweep.runs, kOwnRun, sweep.terms)) mark(next, *nearest);
+    if (sweep.runs.size() > kDefaultRun) mark(defaults, kDefaultRun);
+    const auto own = std::ranges::find_if(sweep.runs, [&](const Run& run) { return isOwn(sweep, run); });
+    if (own != sweep.runs.end()) {
+        const auto number = static_cast<std::size_t>(own - sweep.runs.begin());
+        mark(mine, number);
+        if (const auto nearest = nearestBetter(sweep.runs, number, sweep.terms)) mark(next, *nearest);
+    }
     return {fmt::format("All settings: {}", rowOf(error).name), axisName(rowOf(error)) + " (less is better)", axisName(rowOf(cost)), {all, line, defaults, mine, next}};
 }
 
@@ -128,7 +132,7 @@ std::string knobSays(const Sweep& sweep, const Knob& knob) {
     if (enough != best) text += fmt::format("; {} is within a tenth of that for {}", brief(enough->value), brief(paid(enough)));
     text += ".";
     for (const Run* p : points)
-        if (isOwn(sweep, *p, knob)) {
+        if (isOwn(sweep, *p)) {
             text += fmt::format(" The scene has {}: {} for {}", brief(p->value), brief(p->errors[error]), brief(paid(p)));
             if (p != enough && paid(p) > 0 && paid(enough) > 0)
                 text += fmt::format("; {} would be {:.2g} times as wrong for {:.2g} times the cost", brief(enough->value), wrong(enough) / std::max(wrong(p), 1e-300), paid(enough) / paid(p));

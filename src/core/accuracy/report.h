@@ -13,6 +13,7 @@ struct Sweep {
     Terms terms;
     bool motion = false;
     std::string reference;               // what the truth was, and how far it may be off itself
+    std::optional<Setting> stands = {};  // what the charts mark as the scene's own, and tips tell differences from; none: the own run's
 };
 
 /// One row a run: knob, value, what differs from the scene's own setting, each error, each cost, undecided, status, reason. Motions

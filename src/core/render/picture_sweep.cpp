@@ -157,12 +157,12 @@ void PictureSweep::conclude() {
 
 std::string drawn(Renderer& renderer, const Scene& scene, const Frame& frame, DrawnPicture& out, Values<Cost>& costs) {
     const Sparse sparse(renderer, frame.stride);
-    if (std::string why = renderer.draw(scene, frame.camera, frame.size); !why.empty()) return why;
-    out.shown = renderer.readShown();
-    if (std::string why = renderer.draw(oneSampleOf(scene), frame.camera, frame.size); !why.empty()) return why;
-    out.middle = renderer.readShown();
     Measured measured;
-    if (std::string why = renderer.measure(scene, frame.camera, frame.size, measured); !why.empty()) return why;
+    if (std::string why = renderer.measure(scene, frame.camera, frame.size, measured); !why.empty() || renderer.putOff()) return why;
+    if (std::string why = renderer.draw(scene, frame.camera, frame.size); !why.empty() || renderer.putOff()) return why;
+    out.shown = renderer.readShown();
+    if (std::string why = renderer.draw(oneSampleOf(scene), frame.camera, frame.size); !why.empty() || renderer.putOff()) return why;
+    out.middle = renderer.readShown();
     costs[Cost::evaluations] = static_cast<double>(measured.counts.evaluations.total()) / pixelsOf(frame.size);
     out.channels = std::move(measured.channels);
     return {};

@@ -38,6 +38,7 @@ public:
     /// The own setting first, then the default one, then each knob's values, then the joint ones.
     const std::vector<Run>& runs() const { return runs_; }
     const TruePictureWork& truth() const { return truth_; }
+    const std::vector<const Knob*>& knobs() const { return knobs_; }
     const Scene& scene() const { return scene_; }
     const Frame& frame() const { return truth_.picture().frame; }
     /// The own setting's picture, once it is drawn.
@@ -71,7 +72,8 @@ private:
     bool counted_ = false, complete_ = false;
 };
 
-/// One setting's picture and its counts, without a sweep: what a budget has reached. Says why it cannot be drawn, if it cannot.
+/// One setting's picture and its counts, without a sweep: what a budget has reached. Says why it cannot be drawn, if it cannot. Where
+/// the renderer puts it off (Renderer::putOff) nothing is drawn: ask again.
 std::string drawn(Renderer& renderer, const Scene& scene, const Frame& frame, DrawnPicture& out, Values<Cost>& costs);
 
 }  // namespace mb
