@@ -43,12 +43,23 @@ TruePictureWork::TruePictureWork(Scene scene, const Frame& frame)
     }
 }
 
+bool TruePictureWork::isSmooth(int x, int y, const TrueHit& middle) const {
+    for (int k = 0; k < 9; ++k) {
+        const glm::dvec2 place = 0.5 * glm::dvec2(k % 3 - 1, k / 3 - 1);
+        const std::optional<TrueHit> hit = k == 4 ? middle : oracle_.firstHit(rayAt(picture_.frame, x, y, place), scene_.render.max_distance);
+        if (!hit || hit->object != middle.object || glm::dot(hit->normal, middle.normal) <= kSmoothCosine) return false;
+    }
+    return true;
+}
+
 void TruePictureWork::pixel(int x, int y, double& io_noise) {
     const Frame& frame = picture_.frame;
     const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.size.x) + static_cast<std::size_t>(x);
     const std::optional<TrueHit> middle = oracle_.firstHit(rayAt(frame, x, y, {0, 0}), scene_.render.max_distance);
-    if (middle) picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
-    bool smooth = middle.has_value();
+    if (middle) {
+        picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
+        picture_.smooth[i] = isSmooth(x, y, *middle);
+    }
 
     // A square of samples at the middles of equal cells, each half of a checkerboard of them a picture of its own.
     const auto sampled = [&](int side) {
@@ -58,7 +69,6 @@ void TruePictureWork::pixel(int x, int y, double& io_noise) {
             const glm::dvec2 place = (glm::dvec2(cell) + 0.5) / static_cast<double>(side) - 0.5;
             const double turn = std::fmod((k + 0.5) * 0.61803398874989485 + static_cast<double>(i) * 0.75487766624669276, 1.0);
             const Radiance::Seen seen = radiance_.along(rayAt(frame, x, y, place), {16, turn});
-            smooth = smooth && seen.hit && seen.hit->object == middle->object && glm::dot(seen.hit->normal, middle->normal) > kSmoothCosine;
             area.sum += seen.color, area.halves[(cell.x + cell.y) % 2] += seen.color;
             area.least = glm::min(area.least, seen.color), area.most = glm::max(area.most, seen.color);
             ++area.n;
@@ -69,7 +79,6 @@ void TruePictureWork::pixel(int x, int y, double& io_noise) {
     const glm::dvec3 differ = radiance_.shown(area.most) - radiance_.shown(area.least);
     if (std::max({differ.x, differ.y, differ.z}) > kDiffer) area = sampled(kMany);
     picture_.color[i] = radiance_.shown(area.mean());
-    picture_.smooth[i] = smooth;
     // The two halves are as far apart as twice the error of their mean.
     const double half = 0.5 * area.n;
     const glm::dvec3 apart = 0.5 * (radiance_.shown(area.halves[0] / half) - radiance_.shown(area.halves[1] / half));
