@@ -1,5 +1,6 @@
 #include "core/accuracy/reference.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -61,15 +62,15 @@ void TruePictureWork::pixel(int x, int y, double& io_noise) {
         picture_.smooth[i] = isSmooth(x, y, *middle);
     }
 
-    // A square of samples at the middles of equal cells, each half of a checkerboard of them a picture of its own.
+    // Samples of the R2 sequence (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018): an edge along a row of a
+    // square of samples would be off by half a row. The first and the second half of them are each a picture of its own.
     const auto sampled = [&](int side) {
         Area area;
         for (int k = 0; k < side * side; ++k) {
-            const glm::ivec2 cell{k % side, k / side};
-            const glm::dvec2 place = (glm::dvec2(cell) + 0.5) / static_cast<double>(side) - 0.5;
+            const glm::dvec2 place = glm::fract(0.5 + (k + 0.5) * glm::dvec2(0.75487766624669276, 0.56984029099805327)) - 0.5;
             const double turn = std::fmod((k + 0.5) * 0.61803398874989485 + static_cast<double>(i) * 0.75487766624669276, 1.0);
             const Radiance::Seen seen = radiance_.along(rayAt(frame, x, y, place), {16, turn});
-            area.sum += seen.color, area.halves[(cell.x + cell.y) % 2] += seen.color;
+            area.sum += seen.color, area.halves[2 * k / (side * side)] += seen.color;
             area.least = glm::min(area.least, seen.color), area.most = glm::max(area.most, seen.color);
             ++area.n;
         }
