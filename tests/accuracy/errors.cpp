@@ -142,7 +142,7 @@ DoubleRay borderRay(const Camera& c, glm::ivec2 size, double x, double y) {
 }
 
 /// A pixel's middle, whether its corners and the middles of its sides show the same smooth surface, and the mean of its own grid of
-/// rays: 4 by 4, or 10 by 10 where these differ.
+/// rays: 5 by 5, or 12 by 12 where these differ.
 Pixel pixelOf(const World2& world, const Camera& camera, glm::ivec2 size, int x, int y) {
     Pixel pixel;
     const auto ray = [&](int side, int i, int j) { return pixelRay(camera, size * side, x * side + i, y * side + j); };
@@ -153,7 +153,7 @@ Pixel pixelOf(const World2& world, const Camera& camera, glm::ivec2 size, int x,
             pixel.smooth = met && met->object == pixel.object && glm::degrees(std::acos(std::min(glm::dot(met->normal, pixel.normal), 1.0))) < 15;
         }
     }
-    for (const int side : {4, 10}) {
+    for (const int side : {5, 12}) {
         glm::dvec3 sum{0}, least{1e9}, most{-1e9};
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i) {
