@@ -18,6 +18,9 @@ std::string quoted(const std::string& text) {
 
 template <class Row> std::string axisName(const Quantity<Row>& row) { return fmt::format("{}, {}", row.name, row.unit); }
 
+/// The scene's own setting; of a sweep that has not begun, the default one.
+Setting ownOf(const Sweep& sweep) { return sweep.runs.empty() ? Setting{} : sweep.runs[kOwnRun].setting; }
+
 /// The runs of one knob alone that did not fail, in the order of its values.
 std::vector<const Run*> pointsOf(const Sweep& sweep, const Knob& knob) {
     std::vector<const Run*> points;
@@ -25,7 +28,7 @@ std::vector<const Run*> pointsOf(const Sweep& sweep, const Knob& knob) {
         if (run.knob == knob.key && !run.failed()) points.push_back(&run);
     return points;
 }
-bool isOwn(const Sweep& sweep, const Run& run, const Knob& knob) { return run.value == valueOf(sweep.runs[kOwnRun].setting, knob); }
+bool isOwn(const Sweep& sweep, const Run& run, const Knob& knob) { return run.value == valueOf(ownOf(sweep), knob); }
 
 std::string tipOf(const Run& run, const Setting& own, Error error, Cost cost) {
     const std::string what = run.knob.empty() ? differences(run.setting, own) : fmt::format("{}={}", run.knob, brief(run.value));
@@ -38,7 +41,7 @@ ChartPoint pointOf(const Run& run, const Setting& own, Error error, Cost cost, s
 bool hasBoth(const Run& run, Error error, Cost cost) { return !run.failed() && run.errors.has(error) && run.costs.has(cost); }
 
 ChartPanel knobPanel(const Sweep& sweep, const Knob& knob, Error error, Cost cost) {
-    const Setting& own = sweep.runs[kOwnRun].setting;
+    const Setting own = ownOf(sweep);
     ChartSeries line{ChartSeries::Look::line, std::string(knob.key), {}}, mine{ChartSeries::Look::own, "the scene's own", {}};
     for (const Run* run : pointsOf(sweep, knob)) {
         if (!hasBoth(*run, error, cost)) continue;
@@ -50,7 +53,7 @@ ChartPanel knobPanel(const Sweep& sweep, const Knob& knob, Error error, Cost cos
 
 ChartPanel overviewPanel(const Sweep& sweep, Error error) {
     const Cost cost = sweep.terms.cost;
-    const Setting& own = sweep.runs[kOwnRun].setting;
+    const Setting own = ownOf(sweep);
     using Look = ChartSeries::Look;
     ChartSeries all{Look::faint_dots, "a setting tried", {}}, line{Look::line, "nothing is both cheaper and less wrong", {}}, mine{Look::own, "the scene's own", {}},
         defaults{Look::usual, "the program's defaults", {}}, next{Look::better, "the nearest better one", {}};
@@ -58,10 +61,11 @@ ChartPanel overviewPanel(const Sweep& sweep, Error error) {
         if (hasBoth(run, error, cost)) all.points.push_back(pointOf(run, own, error, cost));
     for (const std::size_t i : frontOf(sweep.runs, error, cost)) line.points.push_back(pointOf(sweep.runs[i], own, error, cost));
     const auto mark = [&](ChartSeries& series, std::size_t i) {
-        if (hasBoth(sweep.runs[i], error, cost)) series.points.push_back(pointOf(sweep.runs[i], own, error, cost));
+        if (i < sweep.runs.size() && hasBoth(sweep.runs[i], error, cost)) series.points.push_back(pointOf(sweep.runs[i], own, error, cost));
     };
     mark(mine, kOwnRun), mark(defaults, kDefaultRun);
-    if (const auto nearest = nearestBetter(sweep.runs, kOwnRun, sweep.terms)) mark(next, *nearest);
+    if (!sweep.runs.empty())
+        if (const auto nearest = nearestBetter(sweep.runs, kOwnRun, sweep.terms)) mark(next, *nearest);
     return {fmt::format("All settings: {}", rowOf(error).name), axisName(rowOf(error)) + " (less is better)", axisName(rowOf(cost)), {all, line, defaults, mine, next}};
 }
 
@@ -139,6 +143,7 @@ std::string knobSays(const Sweep& sweep, const Knob& knob) {
 }
 
 std::string frontSays(const Sweep& sweep) {
+    if (sweep.runs.size() <= kDefaultRun) return "Nothing was tried yet.";
     const auto failed = static_cast<std::size_t>(std::ranges::count_if(sweep.runs, &Run::failed));
     const std::vector<std::size_t> front = unbeaten(sweep.runs, sweep.terms);
     const auto stands = [&](std::size_t i) {
