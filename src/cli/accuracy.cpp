@@ -90,7 +90,7 @@ Shots writeMotionShots(const Folder& folder, const MotionSweep& sweep, const Kno
 std::string referenceOf(const PictureSweep& sweep) {
     const TruePictureWork& truth = sweep.truth();
     std::string text = fmt::format("the true picture, in double precision, {} to {} rays a pixel; its own colors may be off by {} of white", TruePictureWork::kFew * TruePictureWork::kFew,
-                                   TruePictureWork::kMany * TruePictureWork::kMany, brief(truth.picture().noise));
+                                   TruePictureWork::kMost * TruePictureWork::kMost, brief(truth.picture().noise));
     const Oracle& oracle = truth.oracle();
     text += oracle.isExact() ? "; every surface by its own equation" : fmt::format("; surfaces that have no equation of their own to {} m, none thicker than {} m missed", brief(oracle.rootError()), brief(oracle.resolution()));
     for (const std::string& note : oracle.notes()) text += "; " + note;

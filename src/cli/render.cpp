@@ -1,5 +1,5 @@
 // marchbox render: pictures without a window.
-#include "cli/cli.h"
+#include "cli/budget.h"
 #include "cli/film.h"
 
 #include "core/render/picture.h"
@@ -18,9 +18,9 @@ namespace mb::cli {
 namespace {
 
 struct Options {
-    std::string scene, out, camera, stats, size = "640x360";
+    std::string scene, out, camera, stats, size = "640x360", max_error;
     std::vector<std::string> settings, aov;
-    double at_s = 0, fps = 25;
+    double at_s = 0, fps = 25, max_ms = 0;
     int frames = 0;
 };
 
@@ -153,6 +153,7 @@ void renderStill(const Options& options, Scene scene, glm::ivec2 size, const Com
     const auto context = headlessContext();
     checkSize(size);
     Renderer renderer;
+    if (const Budget budget = parseBudget(options.max_error, options.max_ms); budget.isAsked()) scene = withinBudget(scene, camera, size, budget, renderer, common);
     const double first_ms = drawTimed(renderer, scene, camera, size);
     const GridWork grid = renderer.gridWork();
     const std::vector<glm::vec3> picture = renderer.readPicture();
@@ -183,6 +184,9 @@ void renderSequence(const Options& options, Scene scene, glm::ivec2 size, const 
     const auto context = headlessContext();
     checkSize(size);
     Renderer renderer;
+    motion.advanceTo(options.at_s, scene, common);
+    if (const Budget budget = parseBudget(options.max_error, options.max_ms); budget.isAsked())
+        scene = withinBudget(scene, cameraNamed(scene, options.camera), size, budget, renderer, common);
     std::optional<Film> film;
     if (film_wanted) film.emplace(options.out, size, options.fps);
     Progress progress("rendering", static_cast<std::uint64_t>(options.frames), common);
@@ -209,6 +213,8 @@ std::function<void()> make(CLI::App& app, Common& common) {
     addSettings(app, o->settings);
     app.add_option("--aov", o->aov, "also write OUT.NAME.pfm of " + aovNames() + ": a list with commas")->delimiter(',');
     app.add_option("--stats", o->stats, "write what it took, as JSON, to this file ('-': standard output)");
+    app.add_option("--max-error", o->max_error, "pick the cheapest setting of the knobs whose color error is at most this (0.01 is a hundredth of white), or NAME=E of another error: state, depth, normal");
+    app.add_option("--max-ms", o->max_ms, "pick the least wrong setting whose frame takes at most so many milliseconds")->check(within(1e-3, 1e9));
     app.add_option("--frames", o->frames, "how many frames of a sequence or film")->check(within(1, 1e6));
     app.add_option("--fps", o->fps, "frames a second")->capture_default_str()->check(within(1e-3, 1e4));
     return [o, &common] {

@@ -2,6 +2,7 @@
 #include "bench/cover.h"
 #include "bench/truth.h"
 
+#include "core/accuracy/oracle.h"
 #include "core/scene/text.h"
 #include "core/sdf/raycast.h"
 
@@ -87,12 +88,14 @@ TEST_CASE("intervals and distances describe the same solids") {
         const Model model = makeModel(family.name, 40, kSeed);
         if (model.blends) continue;
         const Tree tree = makeTree(sceneOf(model));
+        const Oracle oracle(sceneOf(model));
+        REQUIRE(oracle.isExact());
         int undecided = 0;
         for (int i = 0; i < 2000; ++i) {
             CAPTURE(family.name);
             CAPTURE(i);
             const Ray ray = cameraRay(model.camera, {2000, 2000}, {37.5 + 613.0 * i - 2000 * std::floor(613.0 * i / 2000), i + 0.5});
-            const std::optional<Hit> hit = firstHit(model, ray);
+            const std::optional<TrueHit> hit = oracle.firstHit(ray, model.far);
             const RayEnd end = raycast(tree, ray.origin, ray.direction, model.far);
             if (end.state == RayState::undecided) {
                 ++undecided;
@@ -105,16 +108,4 @@ TEST_CASE("intervals and distances describe the same solids") {
         }
         CHECK(undecided < 10);
     }
-}
-
-TEST_CASE("unions and differences of intervals") {
-    const auto same = [](const Spans& a, const Spans& b) {
-        return std::ranges::equal(a, b, [](Span x, Span y) { return x.enter == y.enter && x.leave == y.leave; });
-    };
-    CHECK(same(unite({{0, 1}, {4, 5}}, {{0.5, 2}, {3, 4}}), {{0, 2}, {3, 5}}));
-    CHECK(same(unite({}, {{1, 2}}), {{1, 2}}));
-    CHECK(same(subtract({{0, 10}}, {{-1, 1}, {3, 4}, {9, 12}}), {{1, 3}, {4, 9}}));
-    CHECK(same(subtract({{0, 1}}, {{-1, 2}}), {}));
-    CHECK(same(subtract({{0, 1}, {2, 3}}, {}), {{0, 1}, {2, 3}}));
-    CHECK(same(subtract({{0, 1}}, {{1, 2}}), {{0, 1}}));
 }

@@ -8,7 +8,7 @@
 namespace mb {
 namespace {
 
-constexpr Error kPicture[] = {Error::color, Error::state, Error::depth, Error::normal};
+constexpr Error kPicture[] = {Error::color, Error::shade, Error::state, Error::depth, Error::normal};
 constexpr Error kMotion[] = {Error::position, Error::energy, Error::penetration, Error::restitution};
 
 Terms termsOf(std::span<const Error> errors, Cost cost, Error noisy, double noise) {
@@ -38,7 +38,7 @@ template <class First, class Second, class Wanted>
 std::optional<std::size_t> least(std::span<const Run> runs, First first, Second second, Wanted wanted) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        if (runs[i].failed() || std::isnan(first(runs[i])) || std::isnan(second(runs[i])) || !wanted(runs[i])) continue;
+        if (runs[i].failed() || runs[i].aside || std::isnan(first(runs[i])) || std::isnan(second(runs[i])) || !wanted(runs[i])) continue;
         if (!best || std::pair{first(runs[i]), second(runs[i])} < std::pair{first(runs[*best]), second(runs[*best])}) best = i;
     }
     return best;
@@ -53,7 +53,7 @@ Terms pictureTerms(double noise) { return termsOf(kPicture, Cost::evaluations, E
 Terms motionTerms(double noise) { return termsOf(kMotion, Cost::visits, Error::position, noise); }
 
 bool beats(const Run& a, const Run& b, const Terms& terms) {
-    return !a.failed() && !b.failed() && beats(comparedOf(a, terms), comparedOf(b, terms));
+    return !a.failed() && !b.failed() && !a.aside && !b.aside && beats(comparedOf(a, terms), comparedOf(b, terms));
 }
 
 std::vector<std::size_t> unbeaten(std::span<const Run> runs, const Terms& terms) {
@@ -61,8 +61,8 @@ std::vector<std::size_t> unbeaten(std::span<const Run> runs, const Terms& terms)
     for (const Run& run : runs) values.push_back(comparedOf(run, terms));
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        bool beaten = runs[i].failed();
-        for (std::size_t k = 0; k < runs.size() && !beaten; ++k) beaten = !runs[k].failed() && beats(values[k], values[i]);
+        bool beaten = runs[i].failed() || runs[i].aside;
+        for (std::size_t k = 0; k < runs.size() && !beaten; ++k) beaten = !runs[k].failed() && !runs[k].aside && beats(values[k], values[i]);
         if (!beaten) found.push_back(i);
     }
     return found;
@@ -82,7 +82,7 @@ std::vector<std::size_t> distinct(std::span<const Run> runs, std::span<const std
 std::vector<std::size_t> frontOf(std::span<const Run> runs, Error error, Cost cost) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < runs.size(); ++i)
-        if (!runs[i].failed() && runs[i].errors.has(error) && runs[i].costs.has(cost)) order.push_back(i);
+        if (!runs[i].failed() && !runs[i].aside && runs[i].errors.has(error) && runs[i].costs.has(cost)) order.push_back(i);
     std::ranges::sort(order, {}, [&](std::size_t i) { return std::tuple{runs[i].costs[cost], runs[i].errors[error], i}; });
     std::vector<std::size_t> front;
     for (const std::size_t i : order)

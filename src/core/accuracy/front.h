@@ -9,7 +9,7 @@ namespace mb {
 /// The runs every sweep begins with: the scene's own setting, and the program's defaults.
 inline constexpr std::size_t kOwnRun = 0, kDefaultRun = 1;
 
-/// What runs are compared by. Of a picture the errors are color, state, depth and normal; of a motion the others.
+/// What runs are compared by. Of a picture the errors are color, shade, state, depth and normal; of a motion the others.
 struct Terms {
     std::span<const Error> errors;
     Cost cost = Cost::evaluations;
@@ -20,7 +20,8 @@ Terms pictureTerms(double noise = 0);
 Terms motionTerms(double noise = 0);
 
 /// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it. An error below the terms' `least`
-/// counts as that. This is a strict order: what is beaten by something beaten is beaten by its master too. What failed beats nothing.
+/// counts as that. This is a strict order: what is beaten by something beaten is beaten by its master too. What failed or stands aside beats
+/// nothing.
 bool beats(const Run& a, const Run& b, const Terms& terms);
 inline constexpr double kSame = 0.05;
 

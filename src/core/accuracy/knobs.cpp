@@ -13,7 +13,8 @@ namespace mb {
 namespace {
 
 using enum Error;
-constexpr Error kGeometry[] = {depth, state, color}, kWhether[] = {state, color}, kNormals[] = {normal, color}, kLook[] = {color},
+constexpr Error kGeometry[] = {depth, state, shade}, kWhether[] = {state, shade}, kNormals[] = {normal, shade}, kLook[] = {shade, color}, kArea[] = {color},
+                kSize[] = {color, state, depth, normal},
                 kPlaces[] = {position, energy, penetration, restitution}, kOverlaps[] = {penetration, position, energy},
                 kRests[] = {position, energy};
 
@@ -52,11 +53,11 @@ constexpr Knob kKnobs[] = {
     {"shadow_steps", "Steps a shadow's ray may take", "From each lit point a ray walks towards the light to see whether anything is in its way. If it runs out of steps nothing is found, and light falls where there should be shadow.", kSteps, kLook, Cost::evaluations, hasRays},
     {"bias", "How far off rays start", "A ray that leaves a surface must start a little above it, or it would meet that same surface again. Too far off lets light in where things touch, too near covers surfaces with specks.", kBiases, kLook, Cost::evaluations, leaves},
     {"reflections", "Bounces between mirrors", "A mirror shows what another mirror shows, and so on, each time a little darker. Every bounce costs another ray, and after a few nothing new is seen.", kBounces, kLook, Cost::evaluations, mirrors},
-    {"samples", "Rays a pixel", "One ray says what is at the middle of a pixel, but a pixel is an area, and at edges its color is a mixture. More rays smooth the stairs of edges, and cost as many times as much.", kSamples, kLook},
+    {"samples", "Rays a pixel", "One ray says what is at the middle of a pixel, but a pixel is an area, and at edges its color is a mixture. More rays smooth the stairs of edges, and cost as many times as much.", kSamples, kArea},
     {"shadow_rays", "Rays to a lamp that has a size", "A lamp that has a size makes shadows with soft edges, which are found by asking many points of the lamp. Too few make the soft edge grainy.", kRays, kLook, Cost::evaluations, softens},
     {"ao_rays", "Rays to the sky", "Corners are darker because little of the sky is seen from them, and this is how many directions are asked. Too few make corners grainy.", kRays, kLook, Cost::evaluations, occludes},
     {"grid_scale", "How fine the grid is", "Space is cut into cells that know which shapes matter in them, and this makes the cells finer or coarser. The picture stays the same: only its price changes.", kCells, kLook, Cost::ms, isGridded},
-    {"scale", "Size the picture is drawn at", "The picture can be drawn smaller and then enlarged. Half the size is a quarter of the work, and edges get soft.", kScales, kLook},
+    {"scale", "Size the picture is drawn at", "The picture can be drawn smaller and then enlarged. Half the size is a quarter of the work, and edges get soft.", kScales, kSize},
     {"dt", "Length of a step of time", "Motion is computed in small steps of time. Shorter steps follow curved paths more closely, and there are more of them.", kTimes, kPlaces, Cost::visits, moves},
     {"substeps", "Parts of a step of time", "Each step of time can be cut into equal parts. That is as exact as shorter steps.", kParts, kPlaces, Cost::visits, moves},
     {"iterations", "Turns of the contacts' solver", "Where many things touch, each push changes all the others, so the pushes are corrected again and again. Too few turns let piles sag into one another.", kTurns, kOverlaps, Cost::visits, moves},

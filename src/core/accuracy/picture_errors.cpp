@@ -18,6 +18,16 @@ int stateOf(const Channels& c, std::size_t i) { return static_cast<int>(c.state[
 /// The angle between two directions of unit length; its small values are not lost to a cosine.
 double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(2 * std::atan2(glm::length(a - b), glm::length(a + b))); }
 
+/// Between light after the film and a color as it is shown: root mean square over the primaries.
+double difference(const glm::vec3& light, const glm::dvec3& shown) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double d = toSrgb(static_cast<double>(light[c])) - shown[c];
+        sum += d * d;
+    }
+    return std::sqrt(sum / 3);
+}
+
 struct MeanSquare {
     double sum = 0;
     std::size_t n = 0;
@@ -36,20 +46,14 @@ bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i)
     return !(std::fabs(static_cast<double>(drawn.channels.depth[i]) - truth.depth[i]) <= kOtherSurface * truth.depth[i]);
 }
 
-double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) {
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) {
-        const double d = toSrgb(static_cast<double>(drawn.shown[i][c])) - truth.color[i][c];
-        sum += d * d;
-    }
-    return std::sqrt(sum / 3);
-}
+double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) { return difference(drawn.shown[i], truth.color[i]); }
+double shadeError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) { return difference(drawn.middle[i], truth.middle[i]); }
 
 Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth) {
-    MeanSquare color, depth, normal;
+    MeanSquare color, shade, depth, normal;
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < truth.pixels(); ++i) {
-        color.add(colorError(drawn, truth, i));
+        color.add(colorError(drawn, truth, i)), shade.add(shadeError(drawn, truth, i));
         if (isWrong(drawn, truth, i)) {
             ++wrong;
         } else if (truth.smooth[i]) {
@@ -58,7 +62,7 @@ Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth) {
         }
     }
     Values<Error> errors;
-    errors[Error::color] = color.root(), errors[Error::depth] = depth.root(), errors[Error::normal] = normal.root();
+    errors[Error::color] = color.root(), errors[Error::shade] = shade.root(), errors[Error::depth] = depth.root(), errors[Error::normal] = normal.root();
     errors[Error::state] = truth.pixels() > 0 ? static_cast<double>(wrong) / static_cast<double>(truth.pixels()) : 0;
     return errors;
 }

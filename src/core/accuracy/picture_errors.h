@@ -11,13 +11,13 @@ namespace mb {
 /// A picture as it was drawn: what its pixels' middles show, and its colors as light after the film.
 struct DrawnPicture {
     Channels channels;
-    std::vector<glm::vec3> shown;
+    std::vector<glm::vec3> shown, middle;  // of all its samples; of one at each pixel's middle
 };
 
 /// A surface whose depth is off by more than this share is another one: its pixel is wrong, and not counted as depth.
 inline constexpr double kOtherSurface = 0.1;
 
-/// color: root mean square of the difference as sRGB, over pixels and primaries. state: the share of pixels whose middle is a hit for
+/// color: root mean square of the difference as sRGB, over pixels and primaries. shade: the same of the pixels' middles. state: the share of pixels whose middle is a hit for
 /// a miss or a miss for a hit, another object, another surface, or undecided. depth (relative) and normal (degrees): root mean square
 /// over the smooth pixels that are none of these.
 Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth);
@@ -28,8 +28,9 @@ double colorUncertainty(const DrawnPicture& drawn, const TruePicture& truth);
 
 /// Whether a pixel shows the wrong thing at its middle.
 bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
-/// How far its color is off, from 0 to 1: root mean square over the primaries.
+/// How far its color is off, from 0 to 1: root mean square over the primaries. The same at its middle.
 double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
+double shadeError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
 
 /// Why a picture is no point of a curve, or nothing: a color that is no number, or undecided pixels over kMostUndecided of all, those
 /// left out that no single precision can tell (TruePictureWork::isTooCloseToTell).

@@ -14,6 +14,7 @@ namespace mb {
 namespace {
 
 constexpr double kSmoothCosine = 0.9659258262890683;  // of 15°: what a smooth surface's normal turns by within a pixel at most
+constexpr int kMiddleRays = 256;                      // to a lamp or the sky, from the one point of a pixel's middle
 constexpr double kFloatUlps = 4 * 1.1920929e-7;       // four units in the last place, of 1
 
 Ray rayAt(const Frame& frame, int x, int y, glm::dvec2 place) {
@@ -28,6 +29,8 @@ struct Area {
     glm::dvec3 mean() const { return sum / static_cast<double>(n); }
 };
 
+double largest(glm::dvec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
 }  // namespace
 
 TruePictureWork::TruePictureWork(Scene scene, const Frame& frame)
@@ -35,7 +38,7 @@ TruePictureWork::TruePictureWork(Scene scene, const Frame& frame)
     picture_.frame = frame;
     const std::size_t pixels = static_cast<std::size_t>(frame.size.x) * static_cast<std::size_t>(frame.size.y);
     picture_.depth.resize(pixels, std::numeric_limits<double>::infinity()), picture_.normal.resize(pixels, glm::dvec3{0});
-    picture_.object.resize(pixels, -1), picture_.smooth.resize(pixels, 0), picture_.color.resize(pixels, glm::dvec3{0});
+    picture_.object.resize(pixels, -1), picture_.smooth.resize(pixels, 0), picture_.color.resize(pixels, glm::dvec3{0}), picture_.middle.resize(pixels, glm::dvec3{0});
     noise_.resize(static_cast<std::size_t>(frame.size.y), 0);
     for (const Leaf& leaf : oracle_.tree().leaves) {
         const Box box = leaf.primitive->extent(leaf.numbers);
@@ -56,11 +59,17 @@ bool TruePictureWork::isSmooth(int x, int y, const TrueHit& middle) const {
 void TruePictureWork::pixel(int x, int y, double& io_noise) {
     const Frame& frame = picture_.frame;
     const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.size.x) + static_cast<std::size_t>(x);
-    const std::optional<TrueHit> middle = oracle_.firstHit(rayAt(frame, x, y, {0, 0}), scene_.render.max_distance);
+    const Radiance::Seen at_middle = radiance_.along(rayAt(frame, x, y, {0, 0}), {kMiddleRays, 0.5});
+    const std::optional<TrueHit>& middle = at_middle.hit;
+    picture_.middle[i] = radiance_.shown(at_middle.color);
     if (middle) {
         picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
         picture_.smooth[i] = isSmooth(x, y, *middle);
     }
+    const auto halvesApart = [&](const Area& area) {
+        const double half = 0.5 * area.n;
+        return radiance_.shown(area.halves[0] / half) - radiance_.shown(area.halves[1] / half);
+    };
 
     // Samples of the R2 sequence (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018): an edge along a row of a
     // square of samples would be off by half a row. The first and the second half of them are each a picture of its own.
@@ -76,13 +85,12 @@ void TruePictureWork::pixel(int x, int y, double& io_noise) {
         }
         return area;
     };
+    // More of them where they differ, and more again where their two halves do.
     Area area = sampled(kFew);
-    const glm::dvec3 differ = radiance_.shown(area.most) - radiance_.shown(area.least);
-    if (std::max({differ.x, differ.y, differ.z}) > kDiffer) area = sampled(kMany);
+    if (largest(radiance_.shown(area.most) - radiance_.shown(area.least)) > kDiffer) area = sampled(kMany);
+    if (largest(halvesApart(area)) > kDiffer) area = sampled(kMost);
     picture_.color[i] = radiance_.shown(area.mean());
-    // The two halves are as far apart as twice the error of their mean.
-    const double half = 0.5 * area.n;
-    const glm::dvec3 apart = 0.5 * (radiance_.shown(area.halves[0] / half) - radiance_.shown(area.halves[1] / half));
+    const glm::dvec3 apart = 0.5 * halvesApart(area);  // the two halves are as far apart as twice the error of their mean
     io_noise += glm::dot(apart, apart) / 3;
 }
 

@@ -26,6 +26,7 @@ struct TruePicture {
     std::vector<int> object;            // the top-level object's number; −1 for a miss
     std::vector<char> smooth;           // 1: the pixel shows one smooth surface: see isSmooth()
     std::vector<glm::dvec3> color;      // the mean light of its area, as it is shown: sRGB of what the film makes of it, 0 to 1
+    std::vector<glm::dvec3> middle;     // the light at its middle alone, the same way
     double noise = 0;                   // root mean square of what the color's own sampling may be off by, of the same unit
     std::size_t pixels() const { return depth.size(); }
 };
@@ -47,7 +48,7 @@ public:
     /// surface, or on none. No float picture can decide such a pixel.
     bool isTooCloseToTell(std::size_t pixel) const;
 
-    static constexpr int kFew = 4, kMany = 8;  // samples along a pixel's side: of every pixel, and of one where they differ
+    static constexpr int kFew = 4, kMany = 8, kMost = 16;  // samples along a pixel's side: of every pixel, and where they differ
     static constexpr double kDiffer = 1.0 / 255;
 
 private:

@@ -14,7 +14,7 @@
 namespace mb {
 
 /// Of pictures first, then of motions.
-enum class Error { color, state, depth, normal, position, energy, penetration, restitution, count };
+enum class Error { color, shade, state, depth, normal, position, energy, penetration, restitution, count };
 enum class Cost { evaluations, ms, visits, step_ms, count };
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
@@ -57,6 +57,7 @@ struct Run {
     Values<Cost> costs;
     double color_off = 0;     // how far the color error of the whole picture may lie above that of the pixels measured
     double undecided = 0;     // share of a picture's pixels whose ray had no answer
+    bool aside = false;       // its knob is paid in another cost than the others: no part of a front
     std::string failure;      // why it is no point of a curve; empty: it is one
 
     bool failed() const { return !failure.empty(); }

@@ -8,6 +8,7 @@ struct Budget {
     Error error = Error::color;          // of a picture
     std::optional<double> most_error;    // of that error
     std::optional<double> most_ms;       // a frame
+    bool isAsked() const { return most_error || most_ms; }
 };
 
 /// What was picked from a sweep's runs, and what it reaches there.

@@ -25,6 +25,12 @@ private:
 
 double pixelsOf(glm::ivec2 size) { return static_cast<double>(size.x) * size.y; }
 
+/// The scene with one sample a pixel, at its middle.
+Scene oneSampleOf(Scene scene) {
+    scene.render.samples = 1;
+    return scene;
+}
+
 /// A size of that shape with about so many pixels.
 glm::ivec2 sizeOf(glm::ivec2 shape, double pixels) {
     const double by = std::sqrt(pixels / pixelsOf(shape));
@@ -36,11 +42,9 @@ glm::ivec2 sizeOf(glm::ivec2 shape, double pixels) {
 PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Camera& camera, glm::ivec2 shape, Renderer& renderer) {
     constexpr double kSeconds = 55, kProbePixels = 96 * 54, kCounting = 1.3;  // of a timed draw
     constexpr double kStraightNs = 5, kGridNs = 65, kLeastNs = 150;         // a primitive touched; a pixel at least
-    Scene one = scene;
-    one.render.samples = 1;
     Measured measured;
     Affordable best;
-    best.why = renderer.measure(one, camera, sizeOf(shape, kProbePixels), measured);
+    best.why = renderer.measure(oneSampleOf(scene), camera, sizeOf(shape, kProbePixels), measured);
     best.put_off = renderer.putOff();
     if (!best.why.empty() || best.put_off) return best;
     const double touched = static_cast<double>(measured.counts.touched.total()) / pixelsOf(measured.channels.size);
@@ -69,7 +73,10 @@ PictureSweep::PictureSweep(const Scene& scene, const Frame& frame, Plan plan)
     wanted_ = {runOf(own), runOf(defaultsOf(own, false))};
     if (!plan.alone) return;
     for (const Knob* knob : knobs_)
-        for (const double value : valuesWith(*knob, valueOf(own, *knob))) wanted_.push_back(runOf(turned(own, *knob, value), knob->key, value));
+        for (const double value : valuesWith(*knob, valueOf(own, *knob))) {
+            wanted_.push_back(runOf(turned(own, *knob, value), knob->key, value));
+            wanted_.back().aside = knob->cost != pictureTerms().cost;
+        }
 }
 
 double PictureSweep::progress() const {
@@ -89,7 +96,7 @@ bool PictureSweep::begin() {
     }
     set_ = withSetting(scene_, run_->setting);
     set_.render.show_undecided = false;
-    draws_ = 0, counted_ = false;
+    draws_ = 0, counted_ = complete_ = false;
     return true;
 }
 
@@ -98,8 +105,9 @@ bool PictureSweep::step(Renderer& renderer) {
     if (!run_ && !begin()) return false;
     const Sparse sparse(renderer, frame().stride);
     if (draws_ < plan_.timings) draw(renderer);
-    else count(renderer);
-    if (run_->failed() || counted_) conclude();
+    else if (!counted_) count(renderer);
+    else drawMiddle(renderer);
+    if (run_->failed() || complete_) conclude();
     return true;
 }
 
@@ -124,6 +132,15 @@ void PictureSweep::count(Renderer& renderer) {
     run_->undecided = static_cast<double>(measured.counts.pixels.undecided) / pixelsOf(frame().size);
     drawn_.channels = std::move(measured.channels);
     counted_ = true;
+    complete_ = set_.render.samples == 1;
+    if (complete_) drawn_.middle = drawn_.shown;
+}
+
+void PictureSweep::drawMiddle(Renderer& renderer) {
+    run_->failure = renderer.draw(oneSampleOf(set_), frame().camera, frame().size);
+    if (run_->failed() || renderer.putOff()) return;
+    drawn_.middle = renderer.readShown();
+    complete_ = true;
 }
 
 void PictureSweep::conclude() {
@@ -142,6 +159,8 @@ std::string drawn(Renderer& renderer, const Scene& scene, const Frame& frame, Dr
     const Sparse sparse(renderer, frame.stride);
     if (std::string why = renderer.draw(scene, frame.camera, frame.size); !why.empty()) return why;
     out.shown = renderer.readShown();
+    if (std::string why = renderer.draw(oneSampleOf(scene), frame.camera, frame.size); !why.empty()) return why;
+    out.middle = renderer.readShown();
     Measured measured;
     if (std::string why = renderer.measure(scene, frame.camera, frame.size, measured); !why.empty()) return why;
     costs[Cost::evaluations] = static_cast<double>(measured.counts.evaluations.total()) / pixelsOf(frame.size);

@@ -53,6 +53,7 @@ private:
     bool begin();
     void draw(Renderer& renderer);
     void count(Renderer& renderer);
+    void drawMiddle(Renderer& renderer);
     void conclude();
 
     Scene scene_;
@@ -67,7 +68,7 @@ private:
     DrawnPicture drawn_, own_;
     std::vector<Shot> shots_;
     int draws_ = 0, compiled_ = -1;
-    bool counted_ = false;
+    bool counted_ = false, complete_ = false;
 };
 
 /// One setting's picture and its counts, without a sweep: what a budget has reached. Says why it cannot be drawn, if it cannot.

@@ -9,9 +9,8 @@
 namespace mb {
 
 glm::dvec2 samplePlace(int i, int n) {
-    if (n == 1) return {0, 0};
     constexpr double kPlastic = 1.32471795724474602596;
-    const glm::dvec2 at = 0.5 + glm::dvec2{1 / kPlastic, 1 / (kPlastic * kPlastic)} * static_cast<double>(i);
+    const glm::dvec2 at = 0.5 + glm::dvec2{1 / kPlastic, 1 / (kPlastic * kPlastic)} * (i - 0.5 * (n - 1));
     return at - glm::floor(at) - 0.5;
 }
 

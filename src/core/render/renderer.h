@@ -167,7 +167,8 @@ private:
 inline constexpr int kPictureAttachments = 2, kChannelAttachments = 8;
 
 /// The place of sample i of n in its pixel, from the pixel's centre, in (−½, ½): the R2 sequence (Roberts, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences", 2018); one sample lies at the centre.
+/// Effectiveness of Quasirandom Sequences", 2018), as many of its points before the centre as behind it, so that their mean is the
+/// centre: else the whole picture is moved. One sample lies at the centre.
 glm::dvec2 samplePlace(int i, int n);
 
 /// Calls `pass` for every sample of a pixel and every turn of lights, the frame's block set for it.
