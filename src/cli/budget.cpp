@@ -57,6 +57,7 @@ Scene withinBudget(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     PictureSweep::Affordable affordable = PictureSweep::affordable(scene, camera, size, renderer);
     if (!affordable.why.empty()) throw Failure{kInputFault, affordable.why};
     affordable.plan.alone = false;
+    if (budget.most_error) affordable.plan.aim = Search::Aim{budget.error, *budget.most_error};
     const Frame frame = frameOf(camera, size, affordable.size);
     PictureSweep sweep(scene, frame, affordable.plan);
     {

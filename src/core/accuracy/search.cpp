@@ -1,6 +1,7 @@
 #include "core/accuracy/search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mb {
 
@@ -65,9 +66,46 @@ void Search::wantNeighbours(std::span<const Run> runs) {
         }
 }
 
+/// A place that was not seen, one or two knobs away; says whether it is one.
+bool Search::wantMoved(const Place& from, std::size_t knob, int by, std::size_t other, int other_by) {
+    Place place = from;
+    const auto move = [&](std::size_t k, int step) { place[k] = std::clamp(place[k] + step, 0, static_cast<int>(values_[k].size()) - 1); };
+    move(knob, by), move(other, other_by);
+    want(place);
+    return !wanted_.empty();
+}
+
+/// One move from the best run: of one knob towards cheap, by two values and then by one, towards dear, and of two knobs against one
+/// another. What has just been better is moved on.
+void Search::wantBetter(std::span<const Run> runs) {
+    const auto badness = [&](const Run& r) {
+        const double error = r.errors[plan_.aim->error] + (plan_.aim->error == Error::color ? r.color_off : 0);
+        return error <= plan_.aim->most ? std::pair{0.0, r.costs[plan_.terms.cost]} : std::pair{1.0, error};
+    };
+    std::size_t best = runs.size();
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (!runs[i].failed() && !runs[i].aside && !std::isnan(badness(runs[i]).second) && (best == runs.size() || badness(runs[i]) < badness(runs[best]))) best = i;
+    if (best == runs.size()) return;
+    const Place from = placeOf(runs[best].setting);
+    const std::size_t n = from.size();
+    if (best + 1 != runs.size()) ++turn_;
+    for (const int by : {-2, -1, 1, 2})
+        for (std::size_t i = 0; i < n; ++i)
+            if (wantMoved(from, (turn_ + i) % n, badness(runs[best]).first == 0 ? by : -by)) return void(turn_ = (turn_ + i) % n);
+    for (const int by : {-1, -2})
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t k = 0; k < n; ++k)
+                if (i != k && wantMoved(from, (turn_ + i) % n, by, (turn_ + k) % n, 1)) return;
+}
+
 std::optional<Setting> Search::next(std::span<const Run> runs) {
     if (asked_ >= plan_.most || plan_.knobs.empty()) return std::nullopt;
     while (wanted_.empty() && !wantDiagonal(runs)) {
+        if (plan_.aim) {
+            wantBetter(runs);
+            if (wanted_.empty()) return std::nullopt;
+            break;
+        }
         wantNeighbours(runs);
         if (!wanted_.empty()) break;
         if (stride_ == 1) return std::nullopt;

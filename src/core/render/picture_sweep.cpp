@@ -68,7 +68,7 @@ PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Came
 
 PictureSweep::PictureSweep(const Scene& scene, const Frame& frame, Plan plan)
     : scene_(scene), plan_(plan), truth_(scene, frame), knobs_(knobsOf(scene, false)),
-      search_(settingOf(scene), defaultsOf(settingOf(scene), false), {knobs_, pictureTerms(), plan.together}) {
+      search_(settingOf(scene), defaultsOf(settingOf(scene), false), {knobs_, pictureTerms(), plan.together, Search::Plan{}.dearest, plan.aim}) {
     const Setting own = settingOf(scene);
     wanted_ = {runOf(own), runOf(defaultsOf(own, false))};
     if (!plan.alone) return;
