@@ -13,7 +13,7 @@ namespace {
 
 /// The definition of beats(), read from front.h.
 bool beatsByDefinition(const Run& a, const Run& b, const Terms& terms) {
-    if (a.failed() || b.failed()) return false;
+    if (a.failed() || b.failed() || a.aside || b.aside) return false;
     if (!(a.costs[terms.cost] <= b.costs[terms.cost])) return false;
     bool better = a.costs[terms.cost] < (1 - kSame) * b.costs[terms.cost];
     for (const Error e : terms.errors) {
@@ -29,7 +29,7 @@ bool beatsByDefinition(const Run& a, const Run& b, const Terms& terms) {
 TEST_CASE("front: to beat is a strict order, as defined") {
     Draw draw(streamOf("beats"));
     int pairs = 0, chains = 0;
-    for (int round = 0; round < times(40); ++round) {
+    for (int round = 0; round < times(80); ++round) {
         const std::vector<Run> runs = drawRuns(draw, 25, 2 + round % 6);
         const Terms terms = pictureTerms(draw.oneIn(2) ? 0 : 0.02);
         for (const Run& a : runs) {
@@ -50,7 +50,7 @@ TEST_CASE("front: to beat is a strict order, as defined") {
         }
     }
     CHECK(pairs > 1000);
-    CHECK(chains > 1000);
+    CHECK(chains > 500);
 }
 
 TEST_CASE("front: the unbeaten are those that none beats; the distinct are of them, and close to each left out") {
@@ -61,13 +61,13 @@ TEST_CASE("front: the unbeaten are those that none beats; the distinct are of th
         const Terms terms = pictureTerms();
         const std::vector<std::size_t> found = unbeaten(runs, terms);
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            const bool beaten = runs[i].failed() || std::ranges::any_of(runs, [&](const Run& other) { return beatsByDefinition(other, runs[i], terms); });
+            const bool beaten = runs[i].failed() || runs[i].aside || std::ranges::any_of(runs, [&](const Run& other) { return beatsByDefinition(other, runs[i], terms); });
             CHECK((std::ranges::find(found, i) == found.end()) == beaten);
         }
         CHECK(std::ranges::is_sorted(found));
         // What is beaten is beaten by one of the unbeaten.
         for (std::size_t i = 0; i < runs.size(); ++i)
-            if (!runs[i].failed() && std::ranges::find(found, i) == found.end())
+            if (!runs[i].failed() && !runs[i].aside && std::ranges::find(found, i) == found.end())
                 CHECK(std::ranges::any_of(found, [&](std::size_t f) { return beats(runs[f], runs[i], terms); }));
         const std::vector<std::size_t> kept = distinct(runs, found, terms);
         for (const std::size_t i : found) {
@@ -84,7 +84,7 @@ TEST_CASE("front: the unbeaten are those that none beats; the distinct are of th
             }));
         }
     }
-    CHECK(left_out > 5);
+    CHECK(left_out > 0);
 }
 
 TEST_CASE("front: the line of one error rises in cost and falls in error, and no run lies below it") {
@@ -97,12 +97,13 @@ TEST_CASE("front: the line of one error rises in cost and falls in error, and no
         const auto cost = [&](std::size_t i) { return runs[i].costs[Cost::evaluations]; };
         for (std::size_t k = 0; k < front.size(); ++k) {
             CHECK(!runs[front[k]].failed());
+            CHECK(!runs[front[k]].aside);
             CHECK(!std::isnan(error(front[k])));
             CHECK(!std::isnan(cost(front[k])));
             if (k > 0) CHECK((cost(front[k]) > cost(front[k - 1]) && error(front[k]) < error(front[k - 1])));
         }
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            if (runs[i].failed() || std::isnan(error(i)) || std::isnan(cost(i))) continue;
+            if (runs[i].failed() || runs[i].aside || std::isnan(error(i)) || std::isnan(cost(i))) continue;
             CHECK(std::ranges::any_of(front, [&](std::size_t f) { return cost(f) <= cost(i) && error(f) <= error(i); }));
         }
     }
@@ -119,7 +120,7 @@ TEST_CASE("front: the cheapest within a limit and the least wrong within one, by
             std::optional<std::size_t> one;
             for (std::size_t i = 0; i < runs.size(); ++i) {
                 const Run& r = runs[i];
-                if (r.failed() || std::isnan(r.errors[Error::color]) || !wanted(r)) continue;
+                if (r.failed() || r.aside || std::isnan(r.errors[Error::color]) || !wanted(r)) continue;
                 if (!one || first(r) < first(runs[*one]) || (first(r) == first(runs[*one]) && second(r) < second(runs[*one]))) one = i;
             }
             return one;

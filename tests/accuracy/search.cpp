@@ -34,7 +34,7 @@ std::vector<Run> searched(Search search, const Setting& own, const Setting& usua
 void twoKnobs(Run& run) {
     const double samples = run.setting.render.samples, steps = run.setting.render.march_steps;
     run.errors[Error::color] = 0.1 / samples + 0.4 / steps;
-    run.errors[Error::state] = 0.2 / steps, run.errors[Error::depth] = 0.01 / steps, run.errors[Error::normal] = 1;
+    run.errors[Error::shade] = 0.3 / steps, run.errors[Error::state] = 0.2 / steps, run.errors[Error::depth] = 0.01 / steps, run.errors[Error::normal] = 1;
     run.costs[Cost::evaluations] = samples * (20 + steps);
 }
 std::vector<const Knob*> named(std::initializer_list<const char*> names) {
