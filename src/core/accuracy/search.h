@@ -41,7 +41,7 @@ private:
     void want(const Place& place);
     bool wantDiagonal(std::span<const Run> runs);
     void wantNeighbours(std::span<const Run> runs);
-    void wantBetter(std::span<const Run> runs);
+    void wantBetter(std::span<const Run> runs, bool pairs);
     bool wantMoved(const Place& from, std::size_t knob, int by, std::size_t other = 0, int other_by = 0);
     double limit(std::span<const Run> runs) const { return plan_.dearest * runs[kOwnRun].costs[plan_.terms.cost]; }
 
@@ -52,6 +52,9 @@ private:
     std::set<Place> seen_;
     int diagonal_ = 0, stride_ = 2;
     std::size_t turn_ = 0;               // the knob that is moved first
+    std::optional<std::size_t> moved_;   // the one moved last, and the run it was moved from
+    std::size_t moved_from_ = 0;
+    std::vector<char> idle_;             // those that changed nothing when they were
     std::size_t asked_ = 0;
 };
 
