@@ -145,3 +145,49 @@ TEST_CASE("search: of a known front nearly all is found by a part of the setting
         CHECK(found >= 0.95 * static_cast<double>(front.size()));
     }
 }
+
+TEST_CASE("search: with an aim it finds the cheapest setting within the limit, or the least wrong, by few questions") {
+    const std::vector<const Knob*> knobs = named({"samples", "march_steps", "normal_taps", "bias"});
+    const auto measure = [](Run& run) {
+        twoKnobs(run);
+        run.errors[Error::color] += 1e-3 * std::fabs(std::log2(run.setting.render.bias / 2));
+        run.costs[Cost::evaluations] *= 1 + 0.1 * (run.setting.render.normal_taps - 4);
+    };
+    const Setting own = middle(), usual;
+    std::vector<Run> all;
+    const std::function<void(Setting, std::size_t)> every = [&](Setting s, std::size_t k) {
+        if (k == knobs.size()) {
+            Run run = runOf(s);
+            measure(run), all.push_back(run);
+            return;
+        }
+        std::vector<double> values = valuesWith(*knobs[k], valueOf(own, *knobs[k]));
+        if (const double u = valueOf(usual, *knobs[k]); std::ranges::find(values, u) == values.end()) values.push_back(u);
+        for (const double v : values) every(turned(s, *knobs[k], v), k + 1);
+    };
+    every(own, 0);
+    for (const double limit : {0.2, 0.1, 0.06, 0.03, 0.015, 0.008, 1e-9}) {
+        CAPTURE(limit);
+        const Search::Plan plan{knobs, pictureTerms(), 60, 1e9, Search::Aim{Error::color, limit}};
+        const std::vector<Run> runs = searched({own, usual, plan}, own, usual, measure), again = searched({own, usual, plan}, own, usual, measure);
+        CHECK(runs.size() <= 62);
+        std::vector<std::string> names;
+        for (const Run& r : runs) names.push_back(differences(r.setting, {}));
+        for (std::size_t i = 0; i < runs.size(); ++i) CHECK(differences(runs[i].setting, again[i].setting) == "");
+        std::ranges::sort(names);
+        CHECK(std::ranges::adjacent_find(names) == names.end());
+        const auto best = cheapestWithin(all, Error::color, limit, Cost::evaluations), found = cheapestWithin(runs, Error::color, limit, Cost::evaluations);
+        REQUIRE(best.has_value() == found.has_value());
+        if (best) CHECK(runs[*found].costs[Cost::evaluations] <= 1.1 * all[*best].costs[Cost::evaluations]);
+        else CHECK(runs[*leastWrong(runs, Error::color, Cost::evaluations)].errors[Error::color] <= 1.05 * all[*leastWrong(all, Error::color, Cost::evaluations)].errors[Error::color]);
+    }
+    // How far the whole picture's error may lie above that of the pixels measured counts too.
+    const auto unsure = [&](Run& run) { measure(run), run.color_off = 0.5 * run.errors[Error::color]; };
+    const std::vector<Run> careful = searched({own, usual, {knobs, pictureTerms(), 60, 1e9, Search::Aim{Error::color, 0.06}}}, own, usual, unsure);
+    double cheapest_careful = 1e300, cheapest_of_all = 1e300;
+    for (const Run& r : careful)
+        if (1.5 * r.errors[Error::color] <= 0.06) cheapest_careful = std::min(cheapest_careful, r.costs[Cost::evaluations]);
+    for (const Run& r : all)
+        if (1.5 * r.errors[Error::color] <= 0.06) cheapest_of_all = std::min(cheapest_of_all, r.costs[Cost::evaluations]);
+    CHECK(cheapest_careful <= 1.1 * cheapest_of_all);
+}
