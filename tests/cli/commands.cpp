@@ -358,6 +358,20 @@ TEST_CASE("accuracy writes a table, a chart for each knob and a page that names 
     for (const std::string& wrong : {"accuracy " + still, "accuracy " + still + " -o " + scratch / "none --size 0x9", "accuracy " + still + " -o " + scratch / "none --together -1"}) CHECK(run(scratch, wrong).code == 2);
 }
 
+TEST_CASE("render --max-error picks a setting, says which, and says so where none is good enough") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "still.txt", "marchbox 1\nlight pos:3,5,4\nobject type:plane\nobject type:sphere pos:0,1,0 radius:1\n"), to = " --size 32x18 -o " + scratch / "x.png";
+    const Ran met = run(scratch, "render " + scene + to + " --max-error 0.1"), unmet = run(scratch, "render " + scene + to + " --max-error color=1e-9");
+    CHECK(met.code == 0);
+    CHECK(met.err.starts_with("picked "));
+    CHECK(met.err.find("cannot be met") == std::string::npos);
+    CHECK(fs::file_size(scratch / "x.png") > 100);
+    CHECK(unmet.code == 0);
+    CHECK(unmet.err.find("cannot be met") != std::string::npos);
+    CHECK(run(scratch, "render " + scene + to + " --quiet --max-error 0.1").err == "");
+    for (const char* wrong : {" --max-error nonsense=1", " --max-error position=1", " --max-error -1", " --max-error 0.1x", " --max-error 0.1 --max-ms 3"}) CHECK(run(scratch, "render " + scene + to + wrong).code == 2);
+}
+
 TEST_CASE("bench effects --quick prints two lines of JSON a twin") {
     const Scratch scratch;
     const Ran ran = run(scratch, "bench effects --quick");
