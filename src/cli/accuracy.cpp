@@ -98,8 +98,8 @@ std::string referenceOf(const PictureSweep& sweep) {
 }
 std::string referenceOf(const MotionSweep& sweep) {
     if (sweep.isClosed()) return fmt::format("the closed form of {} s of motion.", sweep.plan().seconds);
-    return fmt::format("{} s of the same motion in steps a sixty-fourth as long, without sleep; the same in steps twice those ends {} m from it, so that smaller errors of position mean nothing.",
-                       sweep.plan().seconds, brief(sweep.truthError()));
+    return fmt::format("{} s of the same motion in steps a sixty-fourth as long, without sleep; the same in steps twice those ends {} m from it, with {} of the energy of motion more or less, so that smaller errors mean nothing.",
+                       sweep.plan().seconds, brief(sweep.truthErrors()[Error::position]), brief(sweep.truthErrors()[Error::energy]));
 }
 
 /// Runs a sweep to its end, showing its progress.
@@ -141,7 +141,7 @@ void run(const Options& options, const Common& common) {
     if (!knobsOf(scene, true).empty() && PhysicsWorld(scene).bodies().size() > 0) {
         motions.emplace(scene);
         run(*motions, common);
-        sweeps.push_back({motions->runs(), motionTerms(motions->truthError()), true, referenceOf(*motions)});
+        sweeps.push_back({motions->runs(), motions->terms(), true, referenceOf(*motions)});
     }
 
     Page page{options.scene, renderer.rendererName(), fmt::format("{} by {} pixels", affordable.size.x, affordable.size.y), {}, {}};

@@ -104,13 +104,14 @@ bool MotionSweep::findTruth() {
     if (!coarse_) {
         if (std::optional<Track> closed = closedTrack(scene_, plan_.seconds, plan_.every_s)) {
             truth_ = std::move(*closed), closed_ = known_ = true;
+            truth_errors_[Error::position] = truth_errors_[Error::energy] = 0;
             return true;
         }
         coarse_.emplace(referenceScene(scene_, 32), plan_.seconds, plan_.every_s);
         fine_.emplace(referenceScene(scene_), plan_.seconds, plan_.every_s);
     }
     if (coarse_->step() || fine_->step()) return true;
-    truth_ = fine_->track(), truth_error_ = apart(coarse_->track(), truth_);
+    truth_ = fine_->track(), truth_errors_ = errorsOf(coarse_->track(), truth_);
     coarse_.reset(), fine_.reset();
     return known_ = true;
 }

@@ -27,10 +27,11 @@ public:
     /// The own setting first, then the default one, then each knob's values, then the joint ones.
     const std::vector<Run>& runs() const { return runs_; }
     const Track& truth() const { return truth_; }
-    /// Whether the truth is a closed form; and how far off a reference that is stepped may be itself, m: its difference from
-    /// one of twice its step.
+    /// Whether the truth is a closed form; and how far off a reference that is stepped may be itself: its errors, if one of twice
+    /// its step were the truth. 0 of a closed form.
     bool isClosed() const { return closed_; }
-    double truthError() const { return truth_error_; }
+    const Values<Error>& truthErrors() const { return truth_errors_; }
+    Terms terms() const { return motionTerms(truth_errors_[Error::position], truth_errors_[Error::energy]); }
     const Plan& plan() const { return plan_; }
 
 private:
@@ -43,7 +44,7 @@ private:
     Plan plan_;
     Track truth_;
     bool closed_ = false, known_ = false;
-    double truth_error_ = 0;
+    Values<Error> truth_errors_;
     std::optional<Tracker> coarse_, fine_;  // the reference, of twice its step and of its own
     std::vector<Run> wanted_;
     Search search_;

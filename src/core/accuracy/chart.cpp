@@ -9,6 +9,7 @@
 namespace mb {
 namespace {
 
+constexpr std::size_t kAcross = 3;  // panels in a row
 constexpr double kPanelWidth = 360, kPanelHeight = 330, kLeft = 64, kRight = 16, kTop = 34, kBottom = 56, kLegend = 30;
 
 struct Box2 {
@@ -83,13 +84,13 @@ std::string seriesSvg(const ChartSeries& s, const Box2& box, const Decades& x, c
     return path + marks;
 }
 
-std::string panelSvg(const ChartPanel& panel, double left) {
-    const Box2 box{left + kLeft, kTop, kPanelWidth - kLeft - kRight, kPanelHeight - kTop - kBottom};
+std::string panelSvg(const ChartPanel& panel, double left, double top) {
+    const Box2 box{left + kLeft, top + kTop, kPanelWidth - kLeft - kRight, kPanelHeight - kTop - kBottom};
     std::vector<double> xs, ys;
     for (const ChartSeries& s : panel.series)
         for (const ChartPoint& p : s.points) xs.push_back(p.x), ys.push_back(p.y);
     const Decades x = decadesOf(xs), y = decadesOf(ys);
-    std::string out = words(box.x + box.width / 2, 20, "middle", 13, panel.title, " font-weight=\"bold\"");
+    std::string out = words(box.x + box.width / 2, top + 20, "middle", 13, panel.title, " font-weight=\"bold\"");
     out += axes(box, x, y);
     out += words(box.x + box.width / 2, box.y + box.height + 36, "middle", 12, panel.x_label);
     const double side = left + 14, middle = box.y + box.height / 2;
@@ -100,7 +101,7 @@ std::string panelSvg(const ChartPanel& panel, double left) {
 }
 
 /// Each named series once, whichever panel shows it.
-std::string legendSvg(const std::vector<ChartPanel>& panels) {
+std::string legendSvg(const std::vector<ChartPanel>& panels, double top) {
     std::string out;
     std::vector<std::string> named;
     double x = kLeft;
@@ -108,7 +109,7 @@ std::string legendSvg(const std::vector<ChartPanel>& panels) {
         for (const ChartSeries& s : panel.series) {
             if (s.name.empty() || s.points.empty() || std::ranges::find(named, s.name) != named.end()) continue;
             named.push_back(s.name);
-            out += markAt(styleOf(s.look), x, kPanelHeight + 12) + words(x + 12, kPanelHeight + 16, "start", 12, s.name);
+            out += markAt(styleOf(s.look), x, top + 12) + words(x + 12, top + 16, "start", 12, s.name);
             x += 40 + 6.6 * static_cast<double>(s.name.size());
         }
     return out;
@@ -150,11 +151,13 @@ double placeOn(const Decades& axis, double value, double gap) {
 }
 
 std::string chartSvg(const std::vector<ChartPanel>& panels) {
-    const double width = kPanelWidth * static_cast<double>(std::max<std::size_t>(panels.size(), 1)), height = kPanelHeight + kLegend;
+    const std::size_t n = std::max<std::size_t>(panels.size(), 1), rows = (n + kAcross - 1) / kAcross;
+    const double width = kPanelWidth * static_cast<double>(std::min(n, kAcross)), top = kPanelHeight * static_cast<double>(rows), height = top + kLegend;
     std::string out = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" fill=\"#111827\">\n"
                                   "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n", width, height);
-    for (std::size_t i = 0; i < panels.size(); ++i) out += panelSvg(panels[i], kPanelWidth * static_cast<double>(i));
-    return out + legendSvg(panels) + "</svg>\n";
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        out += panelSvg(panels[i], kPanelWidth * static_cast<double>(i % kAcross), kPanelHeight * static_cast<double>(i / kAcross));
+    return out + legendSvg(panels, top) + "</svg>\n";
 }
 
 }  // namespace mb

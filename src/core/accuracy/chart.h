@@ -31,7 +31,7 @@ Decades decadesOf(const std::vector<double>& values);
 double placeOn(const Decades& axis, double value, double gap);
 inline constexpr double kZeroColumn = 0.09;
 
-/// The panels beside one another, with a legend below. Any text is allowed in what it is given.
+/// The panels beside one another, three in a row, with a legend below. Any text is allowed in what it is given.
 std::string chartSvg(const std::vector<ChartPanel>& panels);
 
 /// Text as it may stand in XML.

@@ -11,10 +11,10 @@ namespace {
 constexpr Error kPicture[] = {Error::color, Error::shade, Error::state, Error::depth, Error::normal};
 constexpr Error kMotion[] = {Error::position, Error::energy, Error::penetration, Error::restitution};
 
-Terms termsOf(std::span<const Error> errors, Cost cost, Error noisy, double noise) {
+Terms termsOf(std::span<const Error> errors, Cost cost, std::initializer_list<std::pair<Error, double>> noise) {
     Terms terms{errors, cost, {}};
     for (const Error e : errors) terms.least[e] = rowOf(e).least;
-    terms.least[noisy] = std::max(terms.least[noisy], noise);
+    for (const auto& [error, off] : noise) terms.least[error] = std::max(terms.least[error], off);
     return terms;
 }
 
@@ -49,8 +49,8 @@ double apart(double a, double b, double floor) { return std::fabs(std::log(std::
 
 }  // namespace
 
-Terms pictureTerms(double noise) { return termsOf(kPicture, Cost::evaluations, Error::color, noise); }
-Terms motionTerms(double noise) { return termsOf(kMotion, Cost::visits, Error::position, noise); }
+Terms pictureTerms(double color) { return termsOf(kPicture, Cost::evaluations, {{Error::color, color}}); }
+Terms motionTerms(double place, double energy) { return termsOf(kMotion, Cost::visits, {{Error::position, place}, {Error::energy, energy}}); }
 
 bool beats(const Run& a, const Run& b, const Terms& terms) {
     return !a.failed() && !b.failed() && !a.aside && !b.aside && beats(comparedOf(a, terms), comparedOf(b, terms));

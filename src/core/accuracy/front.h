@@ -15,9 +15,9 @@ struct Terms {
     Cost cost = Cost::evaluations;
     Values<Error> least;                 // what is smaller counts as this: what nobody sees, or what the truth itself may be off by
 };
-/// `noise`: of the true picture's colors; of the true motion's places, m.
-Terms pictureTerms(double noise = 0);
-Terms motionTerms(double noise = 0);
+/// What the truth may be off by itself: `color` of a true picture; `place` (m) and `energy` of a true motion.
+Terms pictureTerms(double color = 0);
+Terms motionTerms(double place = 0, double energy = 0);
 
 /// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it. An error below the terms' `least`
 /// counts as that. This is a strict order: what is beaten by something beaten is beaten by its master too. What failed or stands aside beats

@@ -81,7 +81,7 @@ double colorUncertainty(const DrawnPicture& drawn, const TruePicture& truth) {
 std::string failureOf(const DrawnPicture& drawn, const TruePictureWork& truth) {
     const auto broken = [](const glm::vec3& c) { return !std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z); };
     if (const auto n = std::ranges::count_if(drawn.shown, broken); n > 0) return fmt::format("the color of {} pixels is no number", n);
-    const std::size_t pixels = truth.picture().pixels(), most = static_cast<std::size_t>(kMostUndecided * static_cast<double>(pixels));
+    const std::size_t pixels = truth.picture().pixels(), most = std::max<std::size_t>(1, static_cast<std::size_t>(kMostUndecided * static_cast<double>(pixels)));
     std::size_t undecided = 0;
     for (std::size_t i = 0; i < pixels && undecided <= most; ++i)
         undecided += stateOf(drawn.channels, i) == kUndecided && !truth.isTooCloseToTell(i);

@@ -32,8 +32,8 @@ bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pi
 double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
 double shadeError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
 
-/// Why a picture is no point of a curve, or nothing: a color that is no number, or undecided pixels over kMostUndecided of all, those
-/// left out that no single precision can tell (TruePictureWork::isTooCloseToTell).
+/// Why a picture is no point of a curve, or nothing: a color that is no number, or more than one undecided pixel and more than
+/// kMostUndecided of all, those left out that no single precision can tell (TruePictureWork::isTooCloseToTell).
 std::string failureOf(const DrawnPicture& drawn, const TruePictureWork& truth);
 inline constexpr double kMostUndecided = 1e-4;
 
