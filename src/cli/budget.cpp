@@ -53,11 +53,13 @@ Budget parseBudget(const std::string& most_error, double most_ms) {
     return budget;
 }
 
-Scene withinBudget(const Scene& scene, const Camera& camera, glm::ivec2 size, const Budget& budget, Renderer& renderer, const Common& common) {
+Scene withinBudget(const Scene& scene, const Camera& camera, glm::ivec2 size, Budget budget, Renderer& renderer, const Common& common) {
     PictureSweep::Affordable affordable = PictureSweep::affordable(scene, camera, size, renderer);
     if (!affordable.why.empty()) throw Failure{kInputFault, affordable.why};
     affordable.plan.alone = false;
     const Frame frame = frameOf(camera, size, affordable.size);
+    budget.sampled = frame.stride > 1;
+    if (budget.most_error) affordable.plan.aim = Search::Aim{budget.error, *budget.most_error, budget.sampled};
     PictureSweep sweep(scene, frame, affordable.plan);
     {
         constexpr std::uint64_t kParts = 1000;

@@ -105,10 +105,10 @@ void drawBudget(Ui& ui) {
     const bool moved = ui::numbers({"largest color error", "", "picks the cheapest setting whose picture is at most so wrong, and sets the knobs; 1 is from black to white", least, most, least, most, true}, &a.most_error, 1);
     const bool released = ImGui::IsItemDeactivatedAfterEdit();
     if (!moved && !released) return;
-    const Budget budget{Error::color, a.most_error, {}};
+    const int stride = ui.picture.sweep->frame().stride;
+    const Budget budget{Error::color, a.most_error, {}, stride > 1};
     const std::optional<Picked> picked = pick(runs, budget);
     if (!picked) return;
-    const int stride = ui.picture.sweep->frame().stride;
     a.picked = says(runs, *picked, budget, static_cast<double>(stride) * stride);
     if (released) ui.editor.setKnobs(runs[picked->run].setting, false);
 }

@@ -310,6 +310,68 @@ TEST_CASE("effects says what was called for, by what, and what it costs and show
     CHECK(run(scratch, "effects --size 0x5 " + scene).code == 2);
 }
 
+TEST_CASE("accuracy writes a table, a chart for each knob and a page that names only what is there") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene), folder = scratch / "report/of it";
+    const Ran ran = run(scratch, "accuracy " + scene + " --size 32x18 --together 10 -o '" + folder + "'");
+    REQUIRE(ran.code == 0);
+    CHECK(ran.out.find("settings") != std::string::npos);
+    CHECK(ran.out.find("index.html") != std::string::npos);
+    for (const char* file : {"accuracy.csv", "index.html", "overview.svg", "overview_motion.svg", "march_epsilon.svg", "march_steps.svg", "samples.svg", "scale.svg", "dt.svg", "sleep_speed.svg"})
+        CHECK_MESSAGE(fs::file_size(fs::path(folder) / file) > 100, file);
+    CHECK(!fs::exists(fs::path(folder) / "reflections.svg"));  // nothing mirrors
+    const std::string page = read(fs::path(folder) / "index.html"), table = read(fs::path(folder) / "accuracy.csv");
+    CHECK(page.starts_with("<!doctype html>"));
+    int files = 0;
+    for (std::size_t at = page.find("src=\""); at != std::string::npos; at = page.find("src=\"", at + 1), ++files) {
+        const std::string name = page.substr(at + 5, page.find('"', at + 5) - at - 5);
+        CHECK_MESSAGE(fs::is_regular_file(fs::path(folder) / name), name);
+        CHECK(name.find('/') == std::string::npos);
+    }
+    CHECK(files > 20);
+    // Every chart is on the page; every knob and ten settings together are in the table.
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".svg" || entry.path().extension() == ".png") CHECK_MESSAGE(page.find("\"" + entry.path().filename().string() + "\"") != std::string::npos, entry.path());
+    int together = 0;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) together += line.starts_with("picture,together,");
+    CHECK(together == 10);
+    for (const char* start : {"kind,knob,value,set,color,", "\npicture,own,", "\npicture,default,", "\npicture,samples,", "\nmotion,own,", "\nmotion,dt,"}) CHECK_MESSAGE(table.find(start) != std::string::npos, start);
+
+    // Nothing else is said where nothing is to be; what cannot be written or read says so.
+    const std::string still = write(scratch, "still.txt", "marchbox 1\nlight pos:3,5,4\nobject type:sphere radius:1\n");
+    const Ran quiet = run(scratch, "accuracy " + still + " --size 16x9 --together 0 --quiet -o " + scratch / "quiet");
+    CHECK(quiet.code == 0);
+    CHECK(quiet.out == "");
+    CHECK(quiet.err == "");
+    CHECK(fs::exists(scratch / "quiet/index.html"));
+    CHECK(!fs::exists(scratch / "quiet/overview_motion.svg"));
+    for (const std::string& out : {scratch / "s.txt", scratch / "s.txt/below"}) {
+        const Ran refused = run(scratch, "accuracy " + still + " --size 16x9 --together 0 -o " + out);
+        CHECK(refused.code == 4);
+        CHECK(refused.err.find("s.txt") != std::string::npos);
+    }
+    const std::string bad = write(scratch, "bad.txt", "marchbox 1\nobject type:spher radius:1\n");
+    CHECK(run(scratch, "accuracy " + bad + " -o " + scratch / "none").code == 1);
+    CHECK(!fs::exists(scratch / "none"));
+    CHECK(run(scratch, "accuracy " + scratch / "missing.txt" + " -o " + scratch / "none").code == 4);
+    for (const std::string& wrong : {"accuracy " + still, "accuracy " + still + " -o " + scratch / "none --size 0x9", "accuracy " + still + " -o " + scratch / "none --together -1"}) CHECK(run(scratch, wrong).code == 2);
+}
+
+TEST_CASE("render --max-error picks a setting, says which, and says so where none is good enough") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "still.txt", "marchbox 1\nlight pos:3,5,4\nobject type:plane\nobject type:sphere pos:0,1,0 radius:1\n"), to = " --size 32x18 -o " + scratch / "x.png";
+    const Ran met = run(scratch, "render " + scene + to + " --max-error 0.1"), unmet = run(scratch, "render " + scene + to + " --max-error color=1e-9");
+    CHECK(met.code == 0);
+    CHECK(met.err.starts_with("picked "));
+    CHECK(met.err.find("cannot be met") == std::string::npos);
+    CHECK(fs::file_size(scratch / "x.png") > 100);
+    CHECK(unmet.code == 0);
+    CHECK(unmet.err.find("cannot be met") != std::string::npos);
+    CHECK(run(scratch, "render " + scene + to + " --quiet --max-error 0.1").err == "");
+    for (const char* wrong : {" --max-error nonsense=1", " --max-error position=1", " --max-error -1", " --max-error 0.1x", " --max-error 0.1 --max-ms 3"}) CHECK(run(scratch, "render " + scene + to + wrong).code == 2);
+}
+
 TEST_CASE("bench effects --quick prints two lines of JSON a twin") {
     const Scratch scratch;
     const Ran ran = run(scratch, "bench effects --quick");

@@ -18,17 +18,26 @@ Terms termsOf(std::span<const Error> errors, Cost cost, std::initializer_list<st
     return terms;
 }
 
-/// A run's cost, then its errors, none below what counts; the least there is where nothing was measured.
-std::vector<double> comparedOf(const Run& run, const Terms& terms) {
-    std::vector<double> values{run.costs[terms.cost]};
-    for (const Error e : terms.errors) values.push_back(run.errors.has(e) ? std::max(run.errors[e], terms.least[e]) : terms.least[e]);
-    return values;
+/// A run's cost, then its errors, none below what counts; the least there is where nothing was measured. And what each must be less
+/// by to be better.
+struct Compared {
+    std::vector<double> values, margins;
+};
+Compared comparedOf(const Run& run, const Terms& terms) {
+    const double cost = run.costs[terms.cost];
+    Compared c{{cost}, {kSame * cost}};
+    for (const Error e : terms.errors) {
+        const double value = run.errors.has(e) ? std::max(run.errors[e], terms.least[e]) : terms.least[e];
+        c.values.push_back(value);
+        c.margins.push_back(std::max(kSame * value, run.off.has(e) ? run.off[e] : 0));
+    }
+    return c;
 }
-bool beats(const std::vector<double>& a, const std::vector<double>& b) {
+bool beats(const Compared& a, const Compared& b) {
     bool better = false;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!(a[i] <= b[i])) return false;
-        better = better || a[i] < (1 - kSame) * b[i];
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        if (!(a.values[i] <= b.values[i])) return false;
+        better = better || a.values[i] < b.values[i] - b.margins[i];
     }
     return better;
 }
@@ -57,7 +66,7 @@ bool beats(const Run& a, const Run& b, const Terms& terms) {
 }
 
 std::vector<std::size_t> unbeaten(std::span<const Run> runs, const Terms& terms) {
-    std::vector<std::vector<double>> values;
+    std::vector<Compared> values;
     for (const Run& run : runs) values.push_back(comparedOf(run, terms));
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -73,7 +82,7 @@ std::vector<std::size_t> distinct(std::span<const Run> runs, std::span<const std
     std::vector<std::size_t> first;
     for (const std::size_t i : of) {
         std::vector<long> classes;  // of values a kSame wide
-        for (const double v : comparedOf(runs[i], terms)) classes.push_back(v > 0 ? std::lround(std::log(v) / std::log1p(kSame)) : std::numeric_limits<long>::min());
+        for (const double v : comparedOf(runs[i], terms).values) classes.push_back(v > 0 ? std::lround(std::log(v) / std::log1p(kSame)) : std::numeric_limits<long>::min());
         if (seen.insert(classes).second) first.push_back(i);
     }
     return first;
@@ -89,6 +98,8 @@ std::vector<std::size_t> frontOf(std::span<const Run> runs, Error error, Cost co
         if (front.empty() || runs[i].errors[error] < runs[front.back()].errors[error]) front.push_back(i);
     return front;
 }
+
+double surely(const Run& run, Error error, bool sampled) { return run.errors[error] + (sampled && run.off.has(error) ? 2 * run.off[error] : 0); }
 
 std::optional<std::size_t> cheapestWithin(std::span<const Run> runs, Error error, double most, Cost cost) {
     return least(runs, [&](const Run& r) { return r.costs[cost]; }, [&](const Run& r) { return r.errors[error]; },

@@ -19,8 +19,9 @@ struct Terms {
 Terms pictureTerms(double color = 0);
 Terms motionTerms(double place = 0, double energy = 0);
 
-/// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it. An error below the terms' `least`
-/// counts as that. This is a strict order: what is beaten by something beaten is beaten by its master too. What failed or stands aside beats
+/// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it and, of an error, by more than b's
+/// standard error: one pixel more or less decides nothing. An error below the terms' `least`
+/// counts as that. What failed or stands aside beats
 /// nothing.
 bool beats(const Run& a, const Run& b, const Terms& terms);
 inline constexpr double kSame = 0.05;
@@ -32,6 +33,9 @@ std::vector<std::size_t> distinct(std::span<const Run> runs, std::span<const std
 
 /// The line of one error alone: the runs than which none is both cheaper and less wrong, the cheapest first.
 std::vector<std::size_t> frontOf(std::span<const Run> runs, Error error, Cost cost);
+
+/// What an error is at most: where it is known from a part of the pixels, two standard errors more.
+double surely(const Run& run, Error error, bool sampled);
 
 /// The cheapest run whose error is within the limit; the least wrong one that costs no more than the limit. None if there is none.
 std::optional<std::size_t> cheapestWithin(std::span<const Run> runs, Error error, double most, Cost cost);

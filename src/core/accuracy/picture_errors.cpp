@@ -29,10 +29,15 @@ double difference(const glm::vec3& light, const glm::dvec3& shown) {
 }
 
 struct MeanSquare {
-    double sum = 0;
-    std::size_t n = 0;
-    void add(double x) { sum += x * x, ++n; }
-    double root() const { return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0; }
+    double sum = 0, squares = 0, n = 0;
+    void add(double x) { sum += x * x, squares += x * x * x * x, ++n; }
+    double root() const { return n > 0 ? std::sqrt(sum / n) : 0; }
+    /// The standard error of the root: its square's, over twice the root.
+    double off() const {
+        if (n < 2 || sum <= 0) return 0;
+        const double mean = sum / n, variance = std::max(squares / n - mean * mean, 0.0);
+        return std::sqrt(variance / n) / (2 * std::sqrt(mean));
+    }
 };
 
 }  // namespace
@@ -49,33 +54,27 @@ bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i)
 double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) { return difference(drawn.shown[i], truth.color[i]); }
 double shadeError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) { return difference(drawn.middle[i], truth.middle[i]); }
 
-Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth) {
-    MeanSquare color, shade, depth, normal;
-    std::size_t wrong = 0;
+Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth, Values<Error>* out_off) {
+    MeanSquare color, shade, depth, normal, wrong;
     for (std::size_t i = 0; i < truth.pixels(); ++i) {
         color.add(colorError(drawn, truth, i)), shade.add(shadeError(drawn, truth, i));
-        if (isWrong(drawn, truth, i)) {
-            ++wrong;
-        } else if (truth.smooth[i]) {
-            depth.add(static_cast<double>(drawn.channels.depth[i]) / truth.depth[i] - 1);
-            normal.add(degreesBetween(glm::dvec3(drawn.channels.normal[i]), truth.normal[i]));
-        }
+        const bool is_wrong = isWrong(drawn, truth, i);
+        wrong.add(is_wrong ? 1 : 0);
+        if (is_wrong || !truth.smooth[i]) continue;
+        depth.add(static_cast<double>(drawn.channels.depth[i]) / truth.depth[i] - 1);
+        normal.add(degreesBetween(glm::dvec3(drawn.channels.normal[i]), truth.normal[i]));
     }
+    const std::pair<Error, const MeanSquare*> all[] = {{Error::color, &color}, {Error::shade, &shade}, {Error::depth, &depth}, {Error::normal, &normal}};
     Values<Error> errors;
-    errors[Error::color] = color.root(), errors[Error::shade] = shade.root(), errors[Error::depth] = depth.root(), errors[Error::normal] = normal.root();
-    errors[Error::state] = truth.pixels() > 0 ? static_cast<double>(wrong) / static_cast<double>(truth.pixels()) : 0;
-    return errors;
-}
-
-double colorUncertainty(const DrawnPicture& drawn, const TruePicture& truth) {
-    if (truth.frame.stride == 1 || truth.pixels() < 2) return 0;
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < truth.pixels(); ++i) {
-        const double e = colorError(drawn, truth, i), square = e * e;
-        sum += square, squares += square * square;
+    for (const auto& [error, mean] : all) {
+        errors[error] = mean->root();
+        if (out_off) (*out_off)[error] = mean->off();
     }
-    const double n = static_cast<double>(truth.pixels()), mean = sum / n, variance = std::max(squares / n - mean * mean, 0.0);
-    return mean > 0 ? 2 * std::sqrt(variance / n) / (2 * std::sqrt(mean)) : 0;  // of a root, half its square's
+    // A share is a mean, not the root of one.
+    const double share = wrong.n > 0 ? wrong.sum / wrong.n : 0;
+    errors[Error::state] = share;
+    if (out_off) (*out_off)[Error::state] = wrong.n > 0 ? std::sqrt(share * (1 - share) / wrong.n) : 0;
+    return errors;
 }
 
 std::string failureOf(const DrawnPicture& drawn, const TruePictureWork& truth) {

@@ -20,11 +20,8 @@ inline constexpr double kOtherSurface = 0.1;
 /// color: root mean square of the difference as sRGB, over pixels and primaries. shade: the same of the pixels' middles. state: the share of pixels whose middle is a hit for
 /// a miss or a miss for a hit, another object, another surface, or undecided. depth (relative) and normal (degrees): root mean square
 /// over the smooth pixels that are none of these.
-Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth);
-
-/// How far the color error of the whole picture may lie above that of every stride-th pixel: twice its standard error. 0 where all pixels
-/// were measured.
-double colorUncertainty(const DrawnPicture& drawn, const TruePicture& truth);
+/// `out_off`, if there is one, takes the standard error of each.
+Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth, Values<Error>* out_off = nullptr);
 
 /// Whether a pixel shows the wrong thing at its middle.
 bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);

@@ -1,5 +1,6 @@
 #include "core/accuracy/reference.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -46,29 +47,39 @@ TruePictureWork::TruePictureWork(Scene scene, const Frame& frame)
     }
 }
 
+bool TruePictureWork::isSmooth(int x, int y, const TrueHit& middle) const {
+    for (int k = 0; k < 9; ++k) {
+        const glm::dvec2 place = 0.5 * glm::dvec2(k % 3 - 1, k / 3 - 1);
+        const std::optional<TrueHit> hit = k == 4 ? middle : oracle_.firstHit(rayAt(picture_.frame, x, y, place), scene_.render.max_distance);
+        if (!hit || hit->object != middle.object || glm::dot(hit->normal, middle.normal) <= kSmoothCosine) return false;
+    }
+    return true;
+}
+
 void TruePictureWork::pixel(int x, int y, double& io_noise) {
     const Frame& frame = picture_.frame;
     const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.size.x) + static_cast<std::size_t>(x);
     const Radiance::Seen at_middle = radiance_.along(rayAt(frame, x, y, {0, 0}), {kMiddleRays, 0.5});
     const std::optional<TrueHit>& middle = at_middle.hit;
     picture_.middle[i] = radiance_.shown(at_middle.color);
-    if (middle) picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
-    bool smooth = middle.has_value();
+    if (middle) {
+        picture_.depth[i] = middle->t, picture_.normal[i] = middle->normal, picture_.object[i] = middle->object;
+        picture_.smooth[i] = isSmooth(x, y, *middle);
+    }
     const auto halvesApart = [&](const Area& area) {
         const double half = 0.5 * area.n;
         return radiance_.shown(area.halves[0] / half) - radiance_.shown(area.halves[1] / half);
     };
 
-    // A square of samples at the middles of equal cells, each half of a checkerboard of them a picture of its own.
+    // Samples of the R2 sequence (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018): an edge along a row of a
+    // square of samples would be off by half a row. The first and the second half of them are each a picture of its own.
     const auto sampled = [&](int side) {
         Area area;
         for (int k = 0; k < side * side; ++k) {
-            const glm::ivec2 cell{k % side, k / side};
-            const glm::dvec2 place = (glm::dvec2(cell) + 0.5) / static_cast<double>(side) - 0.5;
+            const glm::dvec2 place = glm::fract(0.5 + (k + 0.5) * glm::dvec2(0.75487766624669276, 0.56984029099805327)) - 0.5;
             const double turn = std::fmod((k + 0.5) * 0.61803398874989485 + static_cast<double>(i) * 0.75487766624669276, 1.0);
             const Radiance::Seen seen = radiance_.along(rayAt(frame, x, y, place), {16, turn});
-            smooth = smooth && seen.hit && seen.hit->object == middle->object && glm::dot(seen.hit->normal, middle->normal) > kSmoothCosine;
-            area.sum += seen.color, area.halves[(cell.x + cell.y) % 2] += seen.color;
+            area.sum += seen.color, area.halves[2 * k / (side * side)] += seen.color;
             area.least = glm::min(area.least, seen.color), area.most = glm::max(area.most, seen.color);
             ++area.n;
         }
@@ -79,7 +90,6 @@ void TruePictureWork::pixel(int x, int y, double& io_noise) {
     if (largest(radiance_.shown(area.most) - radiance_.shown(area.least)) > kDiffer) area = sampled(kMany);
     if (largest(halvesApart(area)) > kDiffer) area = sampled(kMost);
     picture_.color[i] = radiance_.shown(area.mean());
-    picture_.smooth[i] = smooth;
     const glm::dvec3 apart = 0.5 * halvesApart(area);  // the two halves are as far apart as twice the error of their mean
     io_noise += glm::dot(apart, apart) / 3;
 }

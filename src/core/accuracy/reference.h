@@ -24,7 +24,7 @@ struct TruePicture {
     std::vector<double> depth;          // m along the middle ray; +inf for a miss
     std::vector<glm::dvec3> normal;     // towards the eye; 0 for a miss
     std::vector<int> object;            // the top-level object's number; −1 for a miss
-    std::vector<char> smooth;           // 1: the whole pixel shows one smooth surface
+    std::vector<char> smooth;           // 1: the pixel shows one smooth surface: see isSmooth()
     std::vector<glm::dvec3> color;      // the mean light of its area, as it is shown: sRGB of what the film makes of it, 0 to 1
     std::vector<glm::dvec3> middle;     // the light at its middle alone, the same way
     double noise = 0;                   // root mean square of what the color's own sampling may be off by, of the same unit
@@ -54,6 +54,9 @@ public:
 private:
     void row(int y, double& io_noise);
     void pixel(int x, int y, double& io_noise);
+    /// Whether the rays through the pixel's corners and the middles of its sides meet the middle ray's object, their normals within 15°
+    /// of its. No straight edge crosses a pixel without cutting off a corner, however little of it.
+    bool isSmooth(int x, int y, const TrueHit& middle) const;
     void conclude();
 
     Scene scene_;

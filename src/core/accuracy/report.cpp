@@ -18,6 +18,9 @@ std::string quoted(const std::string& text) {
 
 template <class Row> std::string axisName(const Quantity<Row>& row) { return fmt::format("{}, {}", row.name, row.unit); }
 
+/// The setting that counts as the own one; of a sweep that has not begun, the default one.
+Setting ownOf(const Sweep& sweep) { return sweep.stands ? *sweep.stands : sweep.runs.empty() ? Setting{} : sweep.runs[kOwnRun].setting; }
+
 /// The runs of one knob alone that did not fail, in the order of its values.
 std::vector<const Run*> pointsOf(const Sweep& sweep, const Knob& knob) {
     std::vector<const Run*> points;
@@ -25,7 +28,6 @@ std::vector<const Run*> pointsOf(const Sweep& sweep, const Knob& knob) {
         if (run.knob == knob.key && !run.failed()) points.push_back(&run);
     return points;
 }
-const Setting& ownOf(const Sweep& sweep) { return sweep.stands ? *sweep.stands : sweep.runs[kOwnRun].setting; }
 bool isOwn(const Sweep& sweep, const Run& run) { return sameKnobs(run.setting, ownOf(sweep), sweep.motion); }
 
 std::string tipOf(const Run& run, const Setting& own, Error error, Cost cost) {
@@ -143,6 +145,7 @@ std::string knobSays(const Sweep& sweep, const Knob& knob) {
 }
 
 std::string frontSays(const Sweep& sweep) {
+    if (sweep.runs.size() <= kDefaultRun) return "Nothing was tried yet.";
     const auto failed = static_cast<std::size_t>(std::ranges::count_if(sweep.runs, &Run::failed));
     const std::vector<std::size_t> front = unbeaten(sweep.runs, sweep.terms);
     const auto stands = [&](std::size_t i) {

@@ -55,7 +55,7 @@ struct Run {
     Setting setting;
     Values<Error> errors;
     Values<Cost> costs;
-    double color_off = 0;     // how far the color error of the whole picture may lie above that of the pixels measured
+    Values<Error> off;        // the standard error of each error that is a mean over pixels: what a few pixels more or less would change
     double undecided = 0;     // share of a picture's pixels whose ray had no answer
     bool aside = false;       // its knob is paid in another cost than the others: no part of a front
     std::string failure;      // why it is no point of a curve; empty: it is one

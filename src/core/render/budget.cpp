@@ -12,8 +12,7 @@ std::optional<Picked> pick(std::span<const Run> runs, const Budget& budget, doub
     if (budget.most_error) {
         // A run's error is known from a part of the pixels: what it may be off by must fit into the limit too.
         std::vector<Run> careful(runs.begin(), runs.end());
-        if (error == Error::color)
-            for (Run& run : careful) run.errors[error] += run.color_off;
+        for (Run& run : careful) run.errors[error] = surely(run, error, budget.sampled);
         within = cheapestWithin(careful, error, *budget.most_error, Cost::evaluations);
         best = leastWrong(runs, error, Cost::evaluations);
     } else if (budget.most_ms) {

@@ -8,6 +8,7 @@ struct Budget {
     Error error = Error::color;          // of a picture
     std::optional<double> most_error;    // of that error
     std::optional<double> most_ms;       // a frame
+    bool sampled = false;                // the runs were measured at a part of the picture's pixels
     bool isAsked() const { return most_error || most_ms; }
 };
 

@@ -68,7 +68,7 @@ PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Came
 
 PictureSweep::PictureSweep(const Scene& scene, const Frame& frame, Plan plan)
     : scene_(scene), plan_(plan), truth_(scene, frame), knobs_(knobsOf(scene, false)),
-      search_(settingOf(scene), defaultsOf(settingOf(scene), false), {knobs_, pictureTerms(), plan.together}) {
+      search_(settingOf(scene), defaultsOf(settingOf(scene), false), {knobs_, pictureTerms(), plan.together, Search::Plan{}.dearest, plan.aim}) {
     const Setting own = settingOf(scene);
     wanted_ = {runOf(own), runOf(defaultsOf(own, false))};
     if (!plan.alone) return;
@@ -145,8 +145,7 @@ void PictureSweep::drawMiddle(Renderer& renderer) {
 
 void PictureSweep::conclude() {
     if (!run_->failed()) {
-        run_->errors = errorsOf(drawn_, truth_.picture());
-        run_->color_off = colorUncertainty(drawn_, truth_.picture());
+        run_->errors = errorsOf(drawn_, truth_.picture(), &run_->off);
         run_->failure = failureOf(drawn_, truth_);
         if (runs_.size() == kOwnRun) own_ = drawn_;
         if (!run_->knob.empty()) shots_.push_back({runs_.size(), drawn_.shown, errorMap(drawn_, truth_.picture())});

@@ -16,6 +16,7 @@ public:
         bool alone = true;               // each knob by itself
         std::size_t together = 200;      // settings of the joint sweep; 0: none
         int timings = 3;                 // draws of a setting that are timed; the first of a new program is not
+        std::optional<Search::Aim> aim = {};  // of the joint sweep
     };
     /// What to measure of a scene in about that many seconds of drawing: the size of a picture of that shape and the plan. Follows
     /// from counts, so that it is the same on every machine. Says why the scene cannot be drawn, if it cannot.

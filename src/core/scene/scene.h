@@ -67,7 +67,7 @@ struct RenderKnobs {
     double march_epsilon = 1e-4; // of the distance travelled: closer than this a ray looks for a change of sign
     double max_distance = 200;   // m from the eye; nothing further is seen
     double relaxation = 1;       // of the lengthening of steps where nothing looks ahead: 0 plain sphere tracing, 1 the whole of it
-    double normal_epsilon = 2e-4;  // of the distance travelled: the reach of the normal's differences
+    double normal_epsilon = 1e-4;  // of the distance travelled: the reach of the normal's differences
     int normal_taps = 6;         // evaluations a normal takes: 6 central differences; fewer: the 4 of a tetrahedron, less exact
     double bias = 2;             // hit tolerances: so far from a surface starts a ray that leaves it; too near, it meets that again
     int shadow_steps = 256;      // evaluations a shadow ray may make
