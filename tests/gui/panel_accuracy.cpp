@@ -170,3 +170,25 @@ TEST_CASE("Accuracy: the motion follows the picture, in slices") {
     m.hands.click("Accuracy", "Go on");
     CHECK(memory.sweeping_motion);
 }
+
+TEST_CASE("the editor's knobs are set and nothing beside them, and it still shows the same") {
+    Editor editor;
+    RenderKnobs render = editor.scene().render;
+    render.max_distance = 77;
+    editor.setRender(render);
+    const Scene before = editor.scene();
+    Setting other;
+    other.render.samples = 4, other.render.max_distance = 50, other.physics.dt = 1.0 / 60;
+    editor.setKnobs(other, false);
+    CHECK(editor.scene().render.samples == 4);
+    CHECK(editor.scene().render.max_distance == 77);
+    CHECK(editor.scene().physics.dt == before.physics.dt);
+    CHECK(editor.message().text == "Set samples=4");
+    editor.setKnobs(other, true);
+    CHECK(editor.scene().physics.dt == other.physics.dt);
+    CHECK(editor.stillShows(before, editor.camera()));
+
+    render.max_distance = 78;
+    editor.setRender(render);
+    CHECK_FALSE(editor.stillShows(before, editor.camera()));
+}
