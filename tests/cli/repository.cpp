@@ -76,7 +76,7 @@ TEST_CASE("the arrows: nothing includes what it may not") {
 
 TEST_CASE("the documents name files that exist") {
     const std::regex ticked(R"(`((?:src|shaders|tests|saves|docs|tools|bench)/[A-Za-z0-9_./*-]{0,80}|run|test|LICENSE)`)");
-    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md", "docs/benchmarks.md", "docs/effects.md"}) {
+    for (const char* document : {"README.md", "docs/architecture.md", "docs/extending.md", "docs/hard_cases.md", "docs/benchmarks.md", "docs/effects.md", "docs/accuracy.md"}) {
         for (const std::string& named : matches(read(kRoot / document), ticked)) {
             CAPTURE(document);
             CHECK_MESSAGE(fs::exists(kRoot / named), named);

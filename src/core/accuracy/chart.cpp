@@ -151,7 +151,11 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-std::string lineName(double value) { return value >= 0.01 && value < 1e5 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value); }
+std::string lineName(double value) {
+    if (value >= 0.001 && value < 1e5) return fmt::format("{:g}", value);
+    const int power = static_cast<int>(std::floor(std::log10(value) + 1e-9));
+    return fmt::format("{:.0f}e{}", value / std::pow(10.0, power), power);
+}
 std::string brief(double x) { return fmt::format("{:.3g}", x); }
 
 Axis axisOf(const std::vector<double>& values) {
