@@ -15,14 +15,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double msSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-/// The root mean square of the distances of the bodies that both still have at the end.
+/// The root mean square, over all moments, of the distances of the bodies that both have then.
 double apart(const Track& a, const Track& b) {
     double sum = 0;
     std::size_t n = 0;
-    for (std::size_t i = 0; i < a.places.back().size(); ++i) {
-        const glm::dvec3 d = a.places.back()[i] - b.places.back()[i];
-        if (!std::isnan(d.x)) sum += glm::dot(d, d), ++n;
-    }
+    for (std::size_t m = 0; m < std::min(a.places.size(), b.places.size()); ++m)
+        for (std::size_t i = 0; i < a.places[m].size(); ++i) {
+            const glm::dvec3 d = a.places[m][i] - b.places[m][i];
+            if (!std::isnan(d.x)) sum += glm::dot(d, d), ++n;
+        }
     return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0;
 }
 

@@ -13,7 +13,7 @@ class MotionSweep {
 public:
     struct Plan {
         double seconds = 2;              // of motion
-        double every_s = 1.0 / 60;       // between two moments at which it is looked at
+        double every_s = 1.0 / 240;      // between two moments at which it is looked at: finer than most steps, so that a path's corners show
         std::size_t together = 60;       // settings of the joint sweep
         int timings = 3;
         double slice_ms = 10;            // after which a call returns

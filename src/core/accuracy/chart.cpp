@@ -122,19 +122,26 @@ std::string panelSvg(const ChartPanel& panel, double left, double top) {
     return out;
 }
 
-/// Each named series once, whichever panel shows it.
-std::string legendSvg(const std::vector<ChartPanel>& panels, double top) {
-    std::string out;
+/// Each named series once, whichever panel shows it, in as many lines as it takes.
+struct Legend {
+    std::string text;
+    double height = 0;
+};
+Legend legendOf(const std::vector<ChartPanel>& panels, double width, double top) {
+    Legend legend{{}, kLegend};
     std::vector<std::string> named;
     double x = kLeft;
     for (const ChartPanel& panel : panels)
         for (const ChartSeries& s : panel.series) {
             if (s.name.empty() || s.points.empty() || std::ranges::find(named, s.name) != named.end()) continue;
             named.push_back(s.name);
-            out += markAt(styleOf(s.look), x, top + 12) + words(x + 12, top + 16, "start", 12, s.name);
-            x += 40 + 6.6 * static_cast<double>(s.name.size());
+            const double room = 40 + 6.6 * static_cast<double>(s.name.size());
+            if (x > kLeft && x + room - 28 > width) x = kLeft, legend.height += 18;
+            const double y = top + legend.height - kLegend + 12;
+            legend.text += markAt(styleOf(s.look), x, y) + words(x + 12, y + 4, "start", 12, s.name);
+            x += room;
         }
-    return out;
+    return legend;
 }
 
 }  // namespace
@@ -187,12 +194,14 @@ double placeOn(const Axis& axis, double value, double gap) {
 
 std::string chartSvg(const std::vector<ChartPanel>& panels) {
     const std::size_t n = std::max<std::size_t>(panels.size(), 1), rows = (n + kAcross - 1) / kAcross;
-    const double width = kPanelWidth * static_cast<double>(std::min(n, kAcross)), top = kPanelHeight * static_cast<double>(rows), height = top + kLegend;
+    const double width = kPanelWidth * static_cast<double>(std::min(n, kAcross)), top = kPanelHeight * static_cast<double>(rows);
+    const Legend legend = legendOf(panels, width, top);
+    const double height = top + legend.height;
     std::string out = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" fill=\"#111827\">\n"
                                   "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n", width, height);
     for (std::size_t i = 0; i < panels.size(); ++i)
         out += panelSvg(panels[i], kPanelWidth * static_cast<double>(i % kAcross), kPanelHeight * static_cast<double>(i / kAcross));
-    return out + legendSvg(panels, top) + "</svg>\n";
+    return out + legend.text + "</svg>\n";
 }
 
 }  // namespace mb
