@@ -8,7 +8,7 @@ constexpr Quantity<Error> kErrors[] = {
     {Error::shade, "shade", "of white", "The same at the pixels' middles alone, without the stairs of edges: what the rays, the slopes, the shadows and the mirrors got wrong.", false, 1e-4},
     {Error::state, "state", "of the pixels", "The share of pixels that show the wrong thing at their middle: a hole, a ghost, another object or another surface.", false, 0},
     {Error::depth, "depth", "of the distance", "How far from the truth the surfaces stand, as a share of their distance from the eye: the root mean square over the pixels that show one smooth surface.", false, 1e-6},
-    {Error::normal, "normal", "degrees", "By what angle the surfaces' directions are off: the root mean square over the same pixels.", false, 2e-3},
+    {Error::normal, "normal", "degrees", "By what angle the surfaces' directions are off: the root mean square over the same pixels.", false, 1.5e-3},
     {Error::position, "position", "m", "How far the bodies are from their true paths, a path being straight from step to step: the root mean square over all bodies and moments.", true, 1e-4},
     {Error::energy, "energy", "of the energy", "By how much the energy at the end is wrong, as a share of the greatest energy of motion there was.", true, 1e-3},
     {Error::penetration, "penetration", "m", "The deepest that two things overlapped at any time.", true, 5e-4},
