@@ -13,7 +13,7 @@ class MotionSweep {
 public:
     struct Plan {
         double seconds = 2;              // of motion
-        double every_s = 1.0 / 240;      // between two moments at which it is looked at: finer than most steps, so that a path's corners show
+        double every_s = 1.0 / 960;      // between two moments at which it is looked at: finer than most steps, so that a path's corners show
         std::size_t together = 60;       // settings of the joint sweep
         int timings = 3;
         double slice_ms = 10;            // after which a call returns
@@ -37,6 +37,7 @@ public:
 private:
     bool work();
     bool findTruth();
+    void sway();
     bool begin();
     void conclude();
 
@@ -51,6 +52,9 @@ private:
     std::vector<Run> runs_;
     std::optional<Run> run_;             // in work
     std::optional<Tracker> tracked_;     // its motion, looked at
+    std::optional<Tracker> swayed_;      // the own setting's, from a hair's breadth beside
+    int sways_ = 0;
+    Values<Error> off_;                  // how much the errors then differed at most: what chance alone makes
     std::optional<PhysicsWorld> timed_;  // and timed
     int timing_ = 0;
     double ms_ = 0;                      // of this timing
@@ -61,6 +65,9 @@ Values<Error> errorsOf(const Track& track, const Track& truth);
 /// By how much the speed with which a ball leaves a level floor is off under these knobs, as a share of the speed with which it came:
 /// dropped from a metre, against Newton's law of impact. Not measured where nothing falls.
 double restitutionError(const World& world, const PhysicsKnobs& knobs);
+/// The scene with each body moved by a micrometre, another way for each number.
+Scene movedByAHair(Scene scene, int number);
+
 /// Why a motion is no point of a curve, or nothing: a body is lost or went through something, or energy was gained.
 std::string failureOf(const Track& track, const Track& truth, std::span<const Body> bodies);
 

@@ -11,14 +11,21 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::uint64_t visitsOf(const StepCounts& c) {
-    return c.integrations + c.static_queries + c.body_gaps + c.searches + c.rounds + c.drags + c.bounces;
+    return c.evaluations + c.integrations + c.static_queries + c.body_gaps + c.searches + c.rounds + c.drags + c.bounces;
+}
+
+/// The same motion whose parts are steps: what happens between them can then be seen.
+Scene inParts(Scene scene) {
+    scene.physics.dt /= scene.physics.substeps, scene.physics.substeps = 1;
+    return scene;
 }
 
 }  // namespace
 
-Tracker::Tracker(const Scene& scene, double seconds, double every_s) : world_(scene), seconds_(seconds) {
+Tracker::Tracker(const Scene& scene, double seconds, double every_s) : world_(inParts(scene)), seconds_(seconds) {
     track_.every_s = every_s;
     for (const Body& b : world_.bodies()) track_.bodies.push_back(b.object), last_.push_back(b.position);
+    energy_ = world_.energy(), track_.deepest = world_.maxPenetration();
     note(1);
 }
 
@@ -30,9 +37,7 @@ void Tracker::note(double share) {
         places[i] = share == 1 ? b.position : last_[i] + share * (b.position - last_[i]);
     }
     track_.places.push_back(std::move(places));
-    const Energy energy = world_.energy();
-    track_.energy.push_back(energy.total()), track_.kinetic.push_back(energy.kinetic);
-    track_.deepest = std::max(track_.deepest, world_.maxPenetration());
+    track_.energy.push_back(energy_.total()), track_.kinetic.push_back(energy_.kinetic);
     track_.lost = world_.removed();
     track_.visits = visitsOf(world_.counts());
 }
@@ -44,6 +49,8 @@ bool Tracker::step() {
     for (const Body& b : world_.bodies())
         last_[static_cast<std::size_t>(std::ranges::find(track_.bodies, b.object) - track_.bodies.begin())] = b.position;
     world_.step();
+    energy_ = world_.energy();
+    track_.deepest = std::max(track_.deepest, world_.maxPenetration());
     while (track_.places.size() < moments) {
         const double due = static_cast<double>(track_.places.size()) * track_.every_s;
         if (due > world_.time_s() + close) break;

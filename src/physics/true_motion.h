@@ -12,12 +12,13 @@ struct Track {
     std::vector<ObjectId> bodies;                    // of the start
     std::vector<std::vector<glm::dvec3>> places;     // [moment][body], of its centre; NaN once it is gone
     std::vector<double> energy, kinetic;             // J, at each moment
-    double deepest = 0;                              // m: overlap at any moment
+    double deepest = 0;                              // m: overlap after any step
     int lost = 0;                                    // bodies that are gone at the end
     std::uint64_t visits = 0;                        // see Cost::visits
 };
 
-/// Follows a world and notes where it is. Between two steps the places are taken to lie on a line.
+/// Follows a world and notes where it is. Its steps are the parts of the scene's; between two of them the places are taken to lie on a
+/// line.
 class Tracker {
 public:
     Tracker(const Scene& scene, double seconds, double every_s);
@@ -31,7 +32,8 @@ private:
 
     PhysicsWorld world_;
     double seconds_;
-    Track track_, before_;
+    Track track_;
+    Energy energy_;                                  // after the last step
     std::vector<glm::dvec3> last_;                   // the places before the step
 };
 

@@ -19,8 +19,8 @@ struct Terms {
 Terms pictureTerms(double color = 0);
 Terms motionTerms(double place = 0, double energy = 0);
 
-/// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it and, of an error, by more than b's
-/// standard error: one pixel more or less decides nothing. An error below the terms' `least`
+/// Whether a beats b: no error greater and no dearer, and one of them less by more than kSame of it and, of an error, by more than
+/// chance makes of b's (Run::off): one pixel more or less decides nothing. An error below the terms' `least`
 /// counts as that. What failed or stands aside beats
 /// nothing.
 bool beats(const Run& a, const Run& b, const Terms& terms);

@@ -55,7 +55,8 @@ struct Run {
     Setting setting;
     Values<Error> errors;
     Values<Cost> costs;
-    Values<Error> off;        // the standard error of each error that is a mean over pixels: what a few pixels more or less would change
+    Values<Error> off;        // what chance makes of each error: of a picture its standard error over the pixels; of a motion, how much it changed where
+                              // the own setting's began a hair's breadth beside
     double undecided = 0;     // share of a picture's pixels whose ray had no answer
     bool aside = false;       // its knob is paid in another cost than the others: no part of a front
     std::string failure;      // why it is no point of a curve; empty: it is one
