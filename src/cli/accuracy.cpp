@@ -130,7 +130,7 @@ void run(const Options& options, const Common& common) {
     checkSize(shape);
     const Folder folder(options.out);
     Renderer renderer;
-    PictureSweep::Affordable affordable = PictureSweep::affordable(scene, camera, shape, renderer);
+    PictureSweep::Affordable affordable = PictureSweep::affordable(scene, camera, shape, renderer, static_cast<double>(shape.x) * shape.y);
     if (!affordable.why.empty()) throw Failure{kInputFault, affordable.why};
     if (options.together >= 0) affordable.plan.together = static_cast<std::size_t>(options.together);
 

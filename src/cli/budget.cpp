@@ -84,6 +84,7 @@ Scene withinBudget(const Scene& scene, const Camera& camera, glm::ivec2 size, Bu
             continue;
         }
         const bool met = picked->met && !(budget.most_ms && ms > *budget.most_ms);
+        if (picked->met && !met) fmt::print(stderr, "the frame takes {:.3g} ms, more than {:.3g}: it did so at {} tries\n", ms, *budget.most_ms, kTries);
         if (!common.quiet)
             fmt::print(stderr, "{}; the frame took {:.3g} ms; errors measured at {} of {} pixels\n", says(sweep.runs(), {picked->run, met}, budget, times_ms), ms, frame.size.x * frame.size.y, size.x * size.y);
         return chosen;

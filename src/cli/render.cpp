@@ -213,7 +213,7 @@ std::function<void()> make(CLI::App& app, Common& common) {
     addSettings(app, o->settings);
     app.add_option("--aov", o->aov, "also write OUT.NAME.pfm of " + aovNames() + ": a list with commas")->delimiter(',');
     app.add_option("--stats", o->stats, "write what it took, as JSON, to this file ('-': standard output)");
-    app.add_option("--max-error", o->max_error, "pick the cheapest setting of the knobs whose color error is at most this (0.01 is a hundredth of white), or NAME=E of another error: state, depth, normal");
+    app.add_option("--max-error", o->max_error, "pick the cheapest setting of the knobs whose color error is at most this (0.01 is a hundredth of white), or NAME=E of another error: shade, state, depth, normal");
     app.add_option("--max-ms", o->max_ms, "pick the least wrong setting whose frame takes at most so many milliseconds")->check(within(1e-3, 1e9));
     app.add_option("--frames", o->frames, "how many frames of a sequence or film")->check(within(1, 1e6));
     app.add_option("--fps", o->fps, "frames a second")->capture_default_str()->check(within(1e-3, 1e4));

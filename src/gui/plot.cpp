@@ -23,7 +23,6 @@ Style styleOf(ChartSeries::Look look) {
     constexpr ImU32 kBlue = IM_COL32(96, 165, 250, 255), kGrey = IM_COL32(128, 137, 152, 190);
     switch (look) {
     case line: return {Style::Mark::dot, kBlue, 3.5f};
-    case dots: return {Style::Mark::dot, kBlue, 3};
     case faint_dots: return {Style::Mark::dot, kGrey, 2};
     case own: return {Style::Mark::ring, IM_COL32(251, 146, 60, 255), 7};
     case usual: return {Style::Mark::square, IM_COL32(74, 222, 128, 255), 5};
@@ -131,7 +130,7 @@ const ChartPoint* pointUnder(const Plot& plot, ImVec2 mouse, float reach) {
         for (const ChartPoint& p : s.points) {
             const ImVec2 at = plot.at(p);
             const float dx = at.x - mouse.x, dy = at.y - mouse.y, apart = dx * dx + dy * dy;
-            if (apart < least) least = apart, nearest = &p;
+            if (apart <= least) least = apart, nearest = &p;  // of points in one place the one drawn last: marks lie over dots
         }
     return nearest;
 }

@@ -93,7 +93,7 @@ MotionSweep::MotionSweep(const Scene& scene, Plan plan)
     const Setting own = settingOf(scene);
     wanted_ = {runOf(own), runOf(defaultsOf(own, true))};
     for (const Knob* knob : knobsOf(scene, true))
-        for (const double value : valuesWith(*knob, valueOf(own, *knob))) wanted_.push_back(runOf(turned(own, *knob, value), knob->key, value));
+        for (const double value : valuesWith(*knob, {valueOf(own, *knob)})) wanted_.push_back(runOf(turned(own, *knob, value), knob->key, value));
 }
 
 double MotionSweep::progress() const {

@@ -19,7 +19,7 @@ bool beatsByDefinition(const Run& a, const Run& b, const Terms& terms) {
     for (const Error e : terms.errors) {
         const double x = a.errors.has(e) ? std::max(a.errors[e], terms.least[e]) : terms.least[e], y = b.errors.has(e) ? std::max(b.errors[e], terms.least[e]) : terms.least[e];
         if (x > y) return false;
-        better = better || x < (1 - kSame) * y;
+        better = better || x < y - std::max(kSame * y, b.off.has(e) ? b.off[e] : 0);
     }
     return better;
 }
@@ -51,6 +51,27 @@ TEST_CASE("front: to beat is a strict order, as defined") {
     }
     CHECK(pairs > 1000);
     CHECK(chains > 500);
+}
+
+TEST_CASE("front: less by no more than chance makes is not less") {
+    Draw draw(streamOf("chance"));
+    int by_chance = 0;
+    for (int round = 0; round < times(300); ++round) {
+        std::vector<Run> runs = drawRuns(draw, 12, 3);
+        for (Run& run : runs) run.costs[Cost::evaluations] = 1;  // else the cost decides
+        const std::vector<Run> sure = runs;
+        for (Run& run : runs)
+            for (const Error e : pictureTerms().errors)
+                if (draw.oneIn(2)) run.off[e] = draw.uniform(0, 1) * (run.errors.has(e) ? run.errors[e] : 0);
+        for (std::size_t a = 0; a < runs.size(); ++a)
+            for (std::size_t b = 0; b < runs.size(); ++b) {
+                const bool ab = beats(runs[a], runs[b], pictureTerms());
+                CHECK(ab == beatsByDefinition(runs[a], runs[b], pictureTerms()));
+                CHECK((!ab || beats(sure[a], sure[b], pictureTerms())));
+                by_chance += !ab && beats(sure[a], sure[b], pictureTerms());
+            }
+    }
+    CHECK(by_chance > 100);
 }
 
 TEST_CASE("front: the unbeaten are those that none beats; the distinct are of them, and close to each left out") {

@@ -62,7 +62,7 @@ TEST_CASE("knobs: each is a key of its record, with values in its range and in o
         CHECK(rowOf(knob.cost).motion == knob.ofMotion());
         // The default stands among the values, or takes its place there, as any other does.
         for (const double own : {valueOf({}, knob), knob.values.front(), knob.values.back(), 0.5 * (knob.values[0] + knob.values[1])}) {
-            const std::vector<double> values = valuesWith(knob, own);
+            const std::vector<double> values = valuesWith(knob, {own});
             CHECK(std::ranges::count(values, own) == 1);
             const bool was_there = std::ranges::find(knob.values, own) != knob.values.end();
             CHECK(values.size() == knob.values.size() + (was_there ? 0 : 1));

@@ -272,7 +272,7 @@ TEST_CASE("motion sweep: two ask for the same and count the same; own first, def
     CHECK(differences(a.runs()[kDefaultRun].setting, own) == "iterations=10");
     std::size_t at = 2;
     for (const Knob* knob : knobsOf(scene, true))
-        for (const double value : valuesWith(*knob, valueOf(own, *knob))) {
+        for (const double value : valuesWith(*knob, {valueOf(own, *knob)})) {
             REQUIRE(at < a.runs().size());
             CHECK(a.runs()[at].knob == knob->key);
             CHECK(a.runs()[at].value == value);

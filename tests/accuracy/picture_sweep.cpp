@@ -71,7 +71,7 @@ TEST_CASE("picture sweep: the own setting, the default, each knob's values, then
     CHECK(differences(runs[kDefaultRun].setting, defaultsOf(settingOf(scene), false)) == "");
     std::size_t at = 2;
     for (const Knob* knob : knobsOf(scene, false))
-        for (const double value : valuesWith(*knob, valueOf(settingOf(scene), *knob))) {
+        for (const double value : valuesWith(*knob, {valueOf(settingOf(scene), *knob)})) {
             REQUIRE(at < runs.size());
             CHECK(runs[at].knob == knob->key);
             CHECK(runs[at].value == value);

@@ -89,7 +89,7 @@ TEST_CASE("search: nothing next to what is dearer than the limit is asked for th
     const double limit = kDearest * runs[kOwnRun].costs[Cost::evaluations];
     // Past the settings spread over all, each is within two values along one knob of an affordable one.
     const auto placeOf = [&](const Run& r, std::size_t k) {
-        const std::vector<double> values = valuesWith(*knobs[k], valueOf(own, *knobs[k]));
+        const std::vector<double> values = valuesWith(*knobs[k], {valueOf(own, *knobs[k])});
         return std::ranges::find(values, valueOf(r.setting, *knobs[k])) - values.begin();
     };
     int dear = 0;
@@ -128,7 +128,7 @@ TEST_CASE("search: of a known front nearly all is found by a part of the setting
             measure(run), all.push_back(run);
             return;
         }
-        for (const double v : valuesWith(*knobs[k], valueOf(own, *knobs[k]))) every(turned(s, *knobs[k], v), k + 1);
+        for (const double v : valuesWith(*knobs[k], {valueOf(own, *knobs[k])})) every(turned(s, *knobs[k], v), k + 1);
     };
     every(own, 0);
     const std::vector<Run> runs = searched({own, usual, {knobs, pictureTerms(), 100000, 1e9}}, own, usual, measure);
@@ -161,7 +161,7 @@ TEST_CASE("search: with an aim it finds the cheapest setting within the limit, o
             measure(run), all.push_back(run);
             return;
         }
-        std::vector<double> values = valuesWith(*knobs[k], valueOf(own, *knobs[k]));
+        std::vector<double> values = valuesWith(*knobs[k], {valueOf(own, *knobs[k])});
         if (const double u = valueOf(usual, *knobs[k]); std::ranges::find(values, u) == values.end()) values.push_back(u);
         for (const double v : values) every(turned(s, *knobs[k], v), k + 1);
     };

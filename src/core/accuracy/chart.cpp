@@ -26,7 +26,6 @@ Style styleOf(ChartSeries::Look look) {
     using enum ChartSeries::Look;
     switch (look) {
     case line: return {"circle", "#2563a8", 3.5};
-    case dots: return {"circle", "#2563a8", 3};
     case faint_dots: return {"circle", "#b9c2cc", 2};
     case own: return {"ring", "#c2410c", 7};
     case usual: return {"square", "#15803d", 9};

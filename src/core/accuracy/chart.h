@@ -12,7 +12,7 @@ struct ChartPoint {
     int run = -1;                 // the sweep's run it is of; -1: none
 };
 struct ChartSeries {
-    enum class Look { line, dots, faint_dots, own, usual, better } look = Look::line;
+    enum class Look { line, faint_dots, own, usual, better } look = Look::line;
     std::string name;             // in the legend; empty: it is not there
     std::vector<ChartPoint> points;
 };

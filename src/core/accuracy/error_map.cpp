@@ -26,12 +26,13 @@ Tint tintOf(double error) {
     return {glm::mix(yellow, red, share), 0.15f + 0.85f * share};
 }
 
-std::vector<glm::vec3> errorMap(const DrawnPicture& drawn, const TruePicture& truth) {
+std::vector<glm::vec3> errorMap(const DrawnPicture& drawn, const TruePicture& truth, Error error) {
+    const bool shades = error == Error::shade;
     std::vector<glm::vec3> map(truth.pixels());
     for (std::size_t i = 0; i < map.size(); ++i) {
         if (drawn.channels.state[i] == 2) map[i] = kUndecidedTint;
         else if (isWrong(drawn, truth, i)) map[i] = kWrongTint;
-        else map[i] = tinted(drawn.shown[i], colorError(drawn, truth, i));
+        else map[i] = shades ? tinted(drawn.middle[i], shadeError(drawn, truth, i)) : tinted(drawn.shown[i], colorError(drawn, truth, i));
     }
     return map;
 }

@@ -66,7 +66,7 @@ constexpr Knob kKnobs[] = {
 };
 
 /// Calls visit(record, key) for the key of that name.
-template <class F> void withKey(Setting& setting, std::string_view name, F visit) {
+template <class Any, class F> void withKey(Any& setting, std::string_view name, F visit) {
     for (const auto& key : keys<RenderKnobs>())
         if (key.name == name) return visit(setting.render, key);
     for (const auto& key : keys<PhysicsKnobs>())
@@ -102,7 +102,7 @@ std::vector<const Knob*> knobsOf(const Scene& scene, bool motion) {
 
 double valueOf(const Setting& setting, const Knob& knob) {
     double value = 0;
-    withKey(const_cast<Setting&>(setting), knob.key, [&](const auto& record, const auto& key) {
+    withKey(setting, knob.key, [&](const auto& record, const auto& key) {
         std::visit([&](auto member) {
             if constexpr (std::is_convertible_v<std::remove_cvref_t<decltype(valueAt(record, member))>, double>) value = static_cast<double>(valueAt(record, member));
         }, key.member);
@@ -149,11 +149,12 @@ std::string differences(const Setting& setting, const Setting& from) {
     return out;
 }
 
-std::vector<double> valuesWith(const Knob& knob, double own) {
+std::vector<double> valuesWith(const Knob& knob, std::initializer_list<double> more) {
     std::vector<double> values(knob.values.begin(), knob.values.end());
-    if (std::ranges::find(values, own) != values.end()) return values;
     const bool falls = values.front() > values.back();
-    values.insert(std::ranges::find_if(values, [&](double v) { return falls ? v < own : v > own; }), own);
+    for (const double x : more)
+        if (std::ranges::find(values, x) == values.end())
+            values.insert(std::ranges::find_if(values, [&](double v) { return falls ? v < x : v > x; }), x);
     return values;
 }
 

@@ -39,7 +39,7 @@ Scene withSetting(Scene scene, const Setting& setting);
 /// What differs from another setting, as `--set` takes it: "samples=4 march_epsilon=0.001"; empty: nothing.
 std::string differences(const Setting& setting, const Setting& from);
 
-/// A knob's values with one more where it belongs: what the scene has it at.
-std::vector<double> valuesWith(const Knob& knob, double own);
+/// A knob's values with more where they belong: what the scene has it at.
+std::vector<double> valuesWith(const Knob& knob, std::initializer_list<double> more);
 
 }  // namespace mb

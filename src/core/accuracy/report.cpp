@@ -122,25 +122,26 @@ std::string knobSays(const Sweep& sweep, const Knob& knob) {
     if (points.empty()) return "No value of it gave a picture that counts.";
     if (changesNothing(knob, points)) return "In this scene it changes nothing.";
     const Error error = knob.moves.front();
-    const auto wrong = [&](const Run* r) { return std::max(r->errors[error], rowOf(error).least); };
+    const double least = sweep.terms.least[error];
+    const auto wrong = [&](const Run* r) { return r->errors[error]; };
     const auto paid = [&](const Run* r) { return r->costs[knob.cost]; };
     const Run* best = *std::ranges::min_element(points, {}, wrong);
-    // Of those that are as good as the best, the cheapest.
+    // Of those that are as good as the best, as far as that counts, the cheapest.
     const Run* enough = best;
     for (const Run* p : points)
-        if (wrong(p) <= 1.1 * wrong(best) && paid(p) < paid(enough)) enough = p;
-    std::string text = fmt::format("Its {} error is least at {}, where it is {} for {} {} {}", rowOf(error).name, brief(best->value), brief(best->errors[error]),
-                                   brief(paid(best)), rowOf(knob.cost).name, rowOf(knob.cost).unit);
-    if (enough != best) text += fmt::format("; {} is within a tenth of that for {}", brief(enough->value), brief(paid(enough)));
-    text += ".";
-    for (const Run* p : points)
-        if (isOwn(sweep, *p)) {
-            text += fmt::format(" The scene has {}: {} for {}", brief(p->value), brief(p->errors[error]), brief(paid(p)));
-            if (p != enough && paid(p) > 0 && paid(enough) > 0)
-                text += fmt::format("; {} would be {:.2g} times as wrong for {:.2g} times the cost", brief(enough->value), wrong(enough) / std::max(wrong(p), 1e-300), paid(enough) / paid(p));
-            text += ".";
-            break;
-        }
+        if (wrong(p) <= std::max(1.1 * wrong(best), least) && paid(p) < paid(enough)) enough = p;
+    std::string text = fmt::format("Its {} error is least at {}: {} for {} {} {}.", rowOf(error).name, brief(best->value), brief(wrong(best)), brief(paid(best)), rowOf(knob.cost).name, rowOf(knob.cost).unit);
+    if (std::ranges::all_of(points, [&](const Run* p) { return wrong(p) <= least; })) text = fmt::format("Its {} error is too small to matter at all of its values.", rowOf(error).name);
+    if (paid(enough) < (1 - kSame) * paid(best)) text += fmt::format(" {} is as good, as far as it matters, for {}.", brief(enough->value), brief(paid(enough)));
+    for (const Run* p : points) {
+        if (!isOwn(sweep, *p)) continue;
+        text += fmt::format(" The scene has {}: {} for {}", brief(p->value), brief(wrong(p)), brief(paid(p)));
+        const bool less_wrong = std::max(wrong(enough), least) < (1 - kSame) * wrong(p), cheaper = paid(enough) < (1 - kSame) * paid(p);
+        if ((less_wrong || cheaper) && paid(p) > 0 && wrong(p) > 0)
+            text += fmt::format("; {} would be {:.2g} times as wrong for {:.2g} times the cost", brief(enough->value), wrong(enough) / wrong(p), paid(enough) / paid(p));
+        text += ".";
+        break;
+    }
     return text;
 }
 
@@ -152,13 +153,13 @@ std::string frontSays(const Sweep& sweep) {
         if (sweep.runs[i].failed()) return fmt::format("failed: {}", sweep.runs[i].failure);
         return std::string(std::ranges::find(front, i) != front.end() ? "is one of these" : "is not one of these");
     };
-    std::string text = fmt::format("Of {} settings {} failed, and {} different ones are beaten by none: nothing else is at least as right in every error and as cheap, and better in one of them. "
-                                   "The scene's own setting {}; the program's defaults: that {}.", sweep.runs.size(), failed, distinct(sweep.runs, front, sweep.terms).size(), stands(kOwnRun), stands(kDefaultRun));
+    std::string text = fmt::format("Of {} settings {} failed, and {} that differ are beaten by none: no other is at most as wrong in every error, as far as that counts, and as cheap, and better in one of them. "
+                                   "The scene's own setting {}; that of the program's defaults {}.", sweep.runs.size(), failed, distinct(sweep.runs, front, sweep.terms).size(), stands(kOwnRun), stands(kDefaultRun));
     if (const auto nearest = nearestBetter(sweep.runs, kOwnRun, sweep.terms)) {
         const Run &better = sweep.runs[*nearest], &own = sweep.runs[kOwnRun];
         text += fmt::format(" The nearest better one has {} and costs {:.3g} times as much", differences(better.setting, own.setting), better.costs[sweep.terms.cost] / own.costs[sweep.terms.cost]);
         for (const Error e : sweep.terms.errors)
-            if (better.errors.has(e) && better.errors[e] < own.errors[e]) text += fmt::format(", {} {} instead of {}", rowOf(e).name, brief(better.errors[e]), brief(own.errors[e]));
+            if (better.errors.has(e) && better.errors[e] < (1 - kSame) * own.errors[e] && own.errors[e] > sweep.terms.least[e]) text += fmt::format(", {} {} instead of {}", rowOf(e).name, brief(better.errors[e]), brief(own.errors[e]));
         text += ".";
     }
     return text;

@@ -39,7 +39,7 @@ std::string meanings(const Page& page) {
 std::string shots(const KnobSection& section) {
     std::string out;
     for (const Shots::Shot& s : section.shots.shots)
-        out += fmt::format("<figure><img src=\"{}\" alt=\"\"><img src=\"{}\" alt=\"\"><figcaption>{}</figcaption></figure>\n", escaped(s.picture), escaped(s.error_map), escaped(s.caption));
+        out += fmt::format("<figure><img src=\"{}\" alt=\"the picture\"><img src=\"{}\" alt=\"where it is wrong\"><figcaption>{}</figcaption></figure>\n", escaped(s.picture), escaped(s.error_map), escaped(s.caption));
     return out.empty() ? out : fmt::format("<div class=\"shots\">\n{}</div>\n", out);
 }
 
@@ -77,7 +77,9 @@ std::string frontTable(const Sweep& sweep) {
 std::string reportHtml(const Page& page) {
     std::string out = fmt::format("{}<title>What accuracy costs in {}</title></head><body>\n<h1>What accuracy costs in {}</h1>\n", kHead, escaped(page.scene), escaped(page.scene));
     out += paragraph("Every picture and every motion here is a little wrong, and being less wrong takes time. Each chart shows how wrong (left is better) and how much work (down is better): "
-                     "a point at the lower left is both right and cheap. Both axes grow tenfold from line to line.");
+                     "a point at the lower left is both right and cheap. Both axes are stretched: the same way along one is always the same number of times as much.");
+    out += paragraph("Under a chart stand pictures at three settings, each with its map of errors: grey where nothing is wrong, over yellow to red the more the color is off, blue where another surface shows "
+                     "than should, magenta where a ray had no answer. The maps of rays a pixel and of the size compare the whole pixel's color, all others its middle's; those of a motion compare with the true motion's picture.");
     out += paragraph(fmt::format("Pictures: {}. Drawn by {}. Work is counted, not timed, wherever it can be: counts are the same on every machine.", page.size, page.renderer));
     for (const auto& [sweep, file] : page.overviews) {
         out += fmt::format("<h2>{}</h2>\n", sweep->motion ? "All knobs of the motion together" : "All knobs of the picture together");

@@ -8,12 +8,7 @@ namespace mb {
 Search::Search(const Setting& own, const Setting& defaults, Plan plan) : own_(own), plan_(std::move(plan)) {
     std::erase_if(plan_.knobs, [&](const Knob* knob) { return knob->cost != plan_.terms.cost; });
     for (const Knob* knob : plan_.knobs) {
-        std::vector<double> values = valuesWith(*knob, valueOf(own, *knob));
-        if (const double usual = valueOf(defaults, *knob); std::ranges::find(values, usual) == values.end()) {
-            const bool falls = values.front() > values.back();
-            values.insert(std::ranges::find_if(values, [&](double v) { return falls ? v < usual : v > usual; }), usual);
-        }
-        values_.push_back(std::move(values));
+        values_.push_back(valuesWith(*knob, {valueOf(own, *knob), valueOf(defaults, *knob)}));
     }
     seen_ = {placeOf(own), placeOf(defaults)};  // every sweep begins with these
 }

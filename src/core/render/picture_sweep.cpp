@@ -39,12 +39,12 @@ glm::ivec2 sizeOf(glm::ivec2 shape, double pixels) {
 
 }  // namespace
 
-PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Camera& camera, glm::ivec2 shape, Renderer& renderer) {
-    constexpr double kSeconds = 55, kProbePixels = 96 * 54, kCounting = 1.3;  // of a timed draw
+PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Camera& camera, glm::ivec2 shape, Renderer& renderer, double most) {
+    constexpr double kSeconds = 55, kProbePixels = 96.0 * 54, kCounting = 1.3;  // of a timed draw
     constexpr double kStraightNs = 5, kGridNs = 65, kLeastNs = 150;         // a primitive touched; a pixel at least
     Measured measured;
     Affordable best;
-    best.why = renderer.measure(oneSampleOf(scene), camera, sizeOf(shape, kProbePixels), measured);
+    best.why = renderer.measure(oneSampleOf(scene), camera, sizeOf(shape, std::min(kProbePixels, pixelsOf(shape))), measured);
     best.put_off = renderer.putOff();
     if (!best.why.empty() || best.put_off) return best;
     const double touched = static_cast<double>(measured.counts.touched.total()) / pixelsOf(measured.channels.size);
@@ -52,15 +52,16 @@ PictureSweep::Affordable PictureSweep::affordable(const Scene& scene, const Came
     const double alone = 9.0 * static_cast<double>(knobsOf(scene, false).size());
 
     struct Step {
-        double pixels;
+        double share;  // of the pixels
         int timings;
         std::size_t together;
     };
-    constexpr Step kSteps[] = {{160 * 90, 3, 240}, {160 * 90, 2, 200}, {128 * 72, 2, 160}, {96 * 54, 2, 140}, {96 * 54, 1, 120}, {64 * 36, 1, 100}, {64 * 36, 1, 60}, {48 * 27, 1, 60}};
+    constexpr Step kSteps[] = {{1, 3, 240}, {1, 2, 200}, {0.64, 2, 160}, {0.36, 2, 140}, {0.36, 1, 120}, {0.16, 1, 100}, {0.16, 1, 60}, {0.09, 1, 60}};
+    const double pixels = std::min(most, pixelsOf(shape));
     for (const Step& s : kSteps) {
         constexpr double kJointSamples = 4;
         const double draws = alone * scene.render.samples + static_cast<double>(s.together) * kJointSamples;
-        best.plan = {true, s.together, s.timings}, best.size = sizeOf(shape, s.pixels);
+        best.plan = {true, s.together, s.timings}, best.size = sizeOf(shape, s.share * pixels);
         if (draws * (s.timings + kCounting) * pixelsOf(best.size) * ns <= kSeconds * 1e9) break;
     }
     return best;
@@ -73,7 +74,7 @@ PictureSweep::PictureSweep(const Scene& scene, const Frame& frame, Plan plan)
     wanted_ = {runOf(own), runOf(defaultsOf(own, false))};
     if (!plan.alone) return;
     for (const Knob* knob : knobs_)
-        for (const double value : valuesWith(*knob, valueOf(own, *knob))) {
+        for (const double value : valuesWith(*knob, {valueOf(own, *knob)})) {
             wanted_.push_back(runOf(turned(own, *knob, value), knob->key, value));
             wanted_.back().aside = knob->cost != pictureTerms().cost;
         }
@@ -148,7 +149,10 @@ void PictureSweep::conclude() {
         run_->errors = errorsOf(drawn_, truth_.picture(), &run_->off);
         run_->failure = failureOf(drawn_, truth_);
         if (runs_.size() == kOwnRun) own_ = drawn_;
-        if (!run_->knob.empty()) shots_.push_back({runs_.size(), drawn_.shown, errorMap(drawn_, truth_.picture())});
+        if (!run_->knob.empty()) {
+            const bool of_area = knobNamed(run_->knob).moves.front() == Error::color;
+            shots_.push_back({runs_.size(), drawn_.shown, errorMap(drawn_, truth_.picture(), of_area ? Error::color : Error::shade)});
+        }
     }
     runs_.push_back(std::move(*run_));
     run_.reset();

@@ -18,7 +18,8 @@ public:
         int timings = 3;                 // draws of a setting that are timed; the first of a new program is not
         std::optional<Search::Aim> aim = {};  // of the joint sweep
     };
-    /// What to measure of a scene in about that many seconds of drawing: the size of a picture of that shape and the plan. Follows
+    /// What to measure of a scene in about a minute of drawing: the plan, and the size of a picture of that shape that has no more pixels
+    /// than `most`. Follows
     /// from counts, so that it is the same on every machine. Says why the scene cannot be drawn, if it cannot.
     struct Affordable {
         Plan plan;
@@ -26,7 +27,7 @@ public:
         std::string why;
         bool put_off = false;            // ask again: the program that counts is not compiled yet
     };
-    static Affordable affordable(const Scene& scene, const Camera& camera, glm::ivec2 shape, Renderer& renderer);
+    static Affordable affordable(const Scene& scene, const Camera& camera, glm::ivec2 shape, Renderer& renderer, double most = 160 * 90);
 
     PictureSweep(const Scene& scene, const Frame& frame, Plan plan);
 
