@@ -158,7 +158,12 @@ void drawCurves(Ui& ui) {
     makeCharts(ui);
     const std::optional<std::size_t> pressed = ui::plots(a.charts, !a.current);
     if (!a.words.empty()) ui::remark(a.words);
-    if (pressed && a.current) ui.editor.setKnobs((a.motion ? a.motions->runs() : ui.picture.sweep->runs())[*pressed].setting, a.motion);
+    if (pressed && a.current) {
+        const Run& run = (a.motion ? a.motions->runs() : ui.picture.sweep->runs())[*pressed];
+        ui.editor.setKnobs(run.setting, a.motion);
+        const int stride = ui.picture.sweep->frame().stride;
+        if (!a.motion) a.most_error = run.errors[Error::color], a.picked = says(ui.picture.sweep->runs(), {*pressed, true}, {}, static_cast<double>(stride) * stride);
+    }
 }
 
 std::string describe(const PictureSweep& sweep) {

@@ -138,7 +138,8 @@ std::string knobSays(const Sweep& sweep, const Knob& knob) {
         text += fmt::format(" The scene has {}: {} for {}", brief(p->value), brief(wrong(p)), brief(paid(p)));
         const bool less_wrong = std::max(wrong(enough), least) < (1 - kSame) * wrong(p), cheaper = paid(enough) < (1 - kSame) * paid(p);
         if ((less_wrong || cheaper) && paid(p) > 0 && wrong(p) > 0)
-            text += fmt::format("; {} would be {:.2g} times as wrong for {:.2g} times the cost", brief(enough->value), wrong(enough) / wrong(p), paid(enough) / paid(p));
+            text += less_wrong ? fmt::format("; {} would be {:.2g} times as wrong for {:.2g} times the cost", brief(enough->value), wrong(enough) / wrong(p), paid(enough) / paid(p))
+                               : fmt::format("; {} would do as well for {:.2g} times the cost", brief(enough->value), paid(enough) / paid(p));
         text += ".";
         break;
     }
