@@ -149,7 +149,7 @@ void run(const Options& options, const Common& common) {
         const std::string name = sweep.motion ? "overview_motion.svg" : "overview.svg";
         folder.text(name, chartSvg(overviewPanels(sweep)));
         page.overviews.push_back({&sweep, name});
-        if (!sweep.motion) folder.text("front.svg", chartSvg({overviewPanels(sweep).front()}));
+        if (!sweep.motion) folder.text(page.front = "front.svg", chartSvg({overviewPanels(sweep).front()}));
         for (const Knob* knob : knobsOf(scene, sweep.motion)) {
             const std::string file = fmt::format("{}.svg", knob->key);
             folder.text(file, chartSvg(knobPanels(sweep, *knob)));

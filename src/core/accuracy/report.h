@@ -47,6 +47,7 @@ struct Page {
     std::string scene, renderer, size;   // as the reader is to see them
     std::vector<std::pair<const Sweep*, std::string>> overviews;  // with their charts' names
     std::vector<KnobSection> knobs;
+    std::string front = {};              // the color's chart alone: a file's name; empty: there is none
 };
 std::string reportHtml(const Page& page);
 

@@ -83,7 +83,9 @@ std::string reportHtml(const Page& page) {
     out += paragraph(fmt::format("Pictures: {}. Drawn by {}. Work is counted, not timed, wherever it can be: counts are the same on every machine.", page.size, page.renderer));
     for (const auto& [sweep, file] : page.overviews) {
         out += fmt::format("<h2>{}</h2>\n", sweep->motion ? "All knobs of the motion together" : "All knobs of the picture together");
-        out += chart(file, "overview") + paragraph(frontSays(*sweep), " class=\"says\"") + paragraph(fmt::format("Held against: {}", sweep->reference)) + frontTable(*sweep);
+        out += chart(file, "overview");
+        if (!sweep->motion && !page.front.empty()) out += fmt::format("<p><a href=\"{}\">The first of these charts alone.</a></p>\n", escaped(page.front));
+        out += paragraph(frontSays(*sweep), " class=\"says\"") + paragraph(fmt::format("Held against: {}", sweep->reference)) + frontTable(*sweep);
     }
     for (const KnobSection& section : page.knobs) {
         out += fmt::format("<h2>{} <small>({})</small></h2>\n", escaped(section.knob->title), section.knob->key);
