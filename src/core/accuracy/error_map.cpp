@@ -40,9 +40,8 @@ std::vector<glm::vec3> errorMap(const DrawnPicture& drawn, const TruePicture& tr
 std::vector<glm::vec3> differenceMap(std::span<const glm::vec3> shown, std::span<const glm::vec3> truth) {
     std::vector<glm::vec3> map(shown.size());
     for (std::size_t i = 0; i < map.size(); ++i) {
-        double sum = 0;
-        for (int c = 0; c < 3; ++c) sum += std::pow(toSrgb(static_cast<double>(shown[i][c])) - toSrgb(static_cast<double>(truth[i][c])), 2);
-        map[i] = tinted(shown[i], std::sqrt(sum / 3));
+        const glm::dvec3 light(truth[i]);
+        map[i] = tinted(shown[i], difference(shown[i], {toSrgb(light.x), toSrgb(light.y), toSrgb(light.z)}));
     }
     return map;
 }

@@ -18,16 +18,6 @@ int stateOf(const Channels& c, std::size_t i) { return static_cast<int>(c.state[
 /// The angle between two directions of unit length; its small values are not lost to a cosine.
 double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(2 * std::atan2(glm::length(a - b), glm::length(a + b))); }
 
-/// Between light after the film and a color as it is shown: root mean square over the primaries.
-double difference(const glm::vec3& light, const glm::dvec3& shown) {
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) {
-        const double d = toSrgb(static_cast<double>(light[c])) - shown[c];
-        sum += d * d;
-    }
-    return std::sqrt(sum / 3);
-}
-
 struct MeanSquare {
     double sum = 0, squares = 0, n = 0;
     void add(double x) { sum += x * x, squares += x * x * x * x, ++n; }
@@ -41,6 +31,15 @@ struct MeanSquare {
 };
 
 }  // namespace
+
+double difference(const glm::vec3& light, const glm::dvec3& shown) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double d = toSrgb(static_cast<double>(light[c])) - shown[c];
+        sum += d * d;
+    }
+    return std::sqrt(sum / 3);
+}
 
 bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t i) {
     const bool hit = truth.object[i] >= 0;

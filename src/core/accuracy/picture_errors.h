@@ -25,6 +25,8 @@ Values<Error> errorsOf(const DrawnPicture& drawn, const TruePicture& truth, Valu
 
 /// Whether a pixel shows the wrong thing at its middle.
 bool isWrong(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
+/// How far light after the film is from a color as it is shown: root mean square over the primaries, 0 to 1.
+double difference(const glm::vec3& light, const glm::dvec3& shown);
 /// How far its color is off, from 0 to 1: root mean square over the primaries. The same at its middle.
 double colorError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
 double shadeError(const DrawnPicture& drawn, const TruePicture& truth, std::size_t pixel);
