@@ -83,27 +83,13 @@ void ErrorView::draw(const Editor& editor, const TruePictureWork& truth, Rendere
 }
 
 void ErrorView::upload(std::span<const glm::vec3> map, glm::ivec2 size) {
-    const std::vector<std::uint8_t> bytes = encodeSrgb(map);
-    GLuint name = 0;
-    gl.GenTextures(1, &name);
-    texture_ = OwnedTexture(name);
-    gl.BindTexture(GL_TEXTURE_2D, name);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, size.x, size.y, 0, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glGenFramebuffers(1, &name);
-    framebuffer_ = OwnedFramebuffer(name);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    map_ = makeSheet(size, encodeSrgb(map).data());
     size_ = size;
 }
 
 void ErrorView::show(glm::ivec2 corner, glm::ivec2 size, const PictureState& state) const {
     if (!state.errors_wanted || !begun_ || size_.x < 1) return;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, map_.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     // The map's first row is its top.
     glBlitFramebuffer(0, size_.y, size_.x, 0, corner.x, corner.y, corner.x + size.x, corner.y + size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);

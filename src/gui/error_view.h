@@ -27,8 +27,7 @@ private:
     std::uint64_t revision_ = 0;             // last seen
     std::optional<TruePictureWork> truth_;   // where no sweep has it
     std::optional<Setting> setting_;         // that the map is of
-    OwnedTexture texture_;
-    OwnedFramebuffer framebuffer_;
+    Sheet map_;
     glm::ivec2 size_{0};                     // of the map; 0: there is none
 };
 

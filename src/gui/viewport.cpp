@@ -41,17 +41,8 @@ Viewport::~Viewport() = default;
 
 /// What is shown is kept in a picture of the window's size, so that a frame where nothing changed only copies it.
 void Viewport::makeKept(glm::ivec2 window) {
-    GLuint name = 0;
-    gl.GenTextures(1, &name);
-    kept_texture_ = OwnedTexture(name);
-    gl.BindTexture(GL_TEXTURE_2D, name);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, window.x, window.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glGenFramebuffers(1, &name);
-    kept_ = OwnedFramebuffer(name);
-    glBindFramebuffer(GL_FRAMEBUFFER, kept_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, kept_texture_, 0);
+    kept_ = makeSheet(window);
+    glBindFramebuffer(GL_FRAMEBUFFER, kept_.framebuffer);
     gl.ClearColor(0.1f, 0.1f, 0.12f, 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -60,14 +51,14 @@ void Viewport::makeKept(glm::ivec2 window) {
 
 void Viewport::keepShown(glm::ivec2 corner, glm::ivec2 size) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.framebuffer);
     const glm::ivec2 end = corner + size;
     glBlitFramebuffer(corner.x, corner.y, end.x, end.y, corner.x, corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 void Viewport::showKept() {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, window_.x, window_.y, 0, 0, window_.x, window_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -38,8 +38,7 @@ private:
     void makeKept(glm::ivec2 window);
 
     std::unique_ptr<Renderer> renderer_;
-    OwnedTexture kept_texture_;        // what is on the screen, without the panels
-    OwnedFramebuffer kept_;
+    Sheet kept_;                       // what is on the screen, without the panels
     glm::ivec2 window_{0}, corner_{0}, size_{0};
     std::uint64_t drawn_revision_ = 0;
     double changed_at_ = 0;            // ms

@@ -90,6 +90,8 @@ Scene movedScene(const Scene& scene, const Setting& setting, double seconds) {
 
 MotionSweep::MotionSweep(const Scene& scene, Plan plan)
     : scene_(scene), plan_(plan), search_(settingOf(scene), defaultsOf(settingOf(scene), true), {knobsOf(scene, true), motionTerms(), plan.together}) {
+    const PhysicsWorld world(scene);
+    bodies_.assign(world.bodies().begin(), world.bodies().end());
     const Setting own = settingOf(scene);
     wanted_ = {runOf(own), runOf(defaultsOf(own, true))};
     for (const Knob* knob : knobsOf(scene, true))
@@ -160,7 +162,7 @@ void MotionSweep::conclude() {
     run_->errors = errorsOf(track, truth_);
     run_->errors[Error::restitution] = restitutionError(scene_.world, run_->setting.physics);
     run_->costs[Cost::visits] = static_cast<double>(track.visits) / plan_.seconds;
-    run_->failure = failureOf(track, truth_, PhysicsWorld(scene_).bodies());
+    run_->failure = failureOf(track, truth_, bodies_);
     run_->off = off_;
     runs_.push_back(std::move(*run_));
     run_.reset(), tracked_.reset();

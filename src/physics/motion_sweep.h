@@ -43,6 +43,7 @@ private:
 
     Scene scene_;
     Plan plan_;
+    std::vector<Body> bodies_;           // as they begin
     Track truth_;
     bool closed_ = false, known_ = false;
     Values<Error> truth_errors_;

@@ -29,13 +29,19 @@ Tracker::Tracker(const Scene& scene, double seconds, double every_s) : world_(in
     note(1);
 }
 
+/// Calls visit(number, body) for those that are left, by their number at the start: the world keeps their order.
+template <class F> void Tracker::eachBody(F visit) const {
+    std::size_t i = 0;
+    for (const Body& b : world_.bodies()) {
+        while (track_.bodies[i] != b.object) ++i;
+        visit(i, b);
+    }
+}
+
 /// Notes the moment that lies this share of the last step after its beginning.
 void Tracker::note(double share) {
     std::vector<glm::dvec3> places(track_.bodies.size(), glm::dvec3{kNan});
-    for (const Body& b : world_.bodies()) {
-        const auto i = static_cast<std::size_t>(std::ranges::find(track_.bodies, b.object) - track_.bodies.begin());
-        places[i] = share == 1 ? b.position : last_[i] + share * (b.position - last_[i]);
-    }
+    eachBody([&](std::size_t i, const Body& b) { places[i] = share == 1 ? b.position : last_[i] + share * (b.position - last_[i]); });
     track_.places.push_back(std::move(places));
     track_.energy.push_back(energy_.total()), track_.kinetic.push_back(energy_.kinetic);
     track_.lost = world_.removed();
@@ -46,8 +52,7 @@ bool Tracker::step() {
     const double before = world_.time_s(), close = 1e-9 * world_.dt_s();
     const auto moments = static_cast<std::size_t>(std::llround(seconds_ / track_.every_s)) + 1;
     if (track_.places.size() >= moments) return false;
-    for (const Body& b : world_.bodies())
-        last_[static_cast<std::size_t>(std::ranges::find(track_.bodies, b.object) - track_.bodies.begin())] = b.position;
+    eachBody([&](std::size_t i, const Body& b) { last_[i] = b.position; });
     world_.step();
     energy_ = world_.energy();
     track_.deepest = std::max(track_.deepest, world_.maxPenetration());

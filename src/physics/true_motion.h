@@ -29,6 +29,7 @@ public:
 
 private:
     void note(double share);
+    template <class F> void eachBody(F visit) const;
 
     PhysicsWorld world_;
     double seconds_;

@@ -7,9 +7,7 @@ namespace mb {
 
 Search::Search(const Setting& own, const Setting& defaults, Plan plan) : own_(own), plan_(std::move(plan)) {
     std::erase_if(plan_.knobs, [&](const Knob* knob) { return knob->cost != plan_.terms.cost; });
-    for (const Knob* knob : plan_.knobs) {
-        values_.push_back(valuesWith(*knob, {valueOf(own, *knob), valueOf(defaults, *knob)}));
-    }
+    for (const Knob* knob : plan_.knobs) values_.push_back(valuesWith(*knob, {valueOf(own, *knob), valueOf(defaults, *knob)}));
     seen_ = {placeOf(own), placeOf(defaults)};  // every sweep begins with these
 }
 

@@ -71,6 +71,25 @@ std::vector<float> Targets::readDepth() const {
     return readPixels(size_, GL_DEPTH_COMPONENT, 1);
 }
 
+Sheet makeSheet(glm::ivec2 size, const std::uint8_t* rgb) {
+    Sheet sheet;
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    sheet.texture = OwnedTexture(name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glGenFramebuffers(1, &name);
+    sheet.framebuffer = OwnedFramebuffer(name);
+    glBindFramebuffer(GL_FRAMEBUFFER, sheet.framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, sheet.texture, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return sheet;
+}
+
 AddingUp::AddingUp() {
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_ONE, GL_ONE);

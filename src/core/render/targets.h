@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace mb {
@@ -31,6 +32,14 @@ private:
     OwnedTexture depth_;
     OwnedFramebuffer framebuffer_;
 };
+
+/// An 8-bit texture that is shown texel by texel, and a framebuffer to draw into it or to copy it from. `rgb`: what it holds at first, its
+/// rows one behind the other; null: anything.
+struct Sheet {
+    OwnedTexture texture;
+    OwnedFramebuffer framebuffer;
+};
+Sheet makeSheet(glm::ivec2 size, const std::uint8_t* rgb = nullptr);
 
 /// As long as it lives, what is drawn is added to what is there, and the depth is the last pass's.
 struct AddingUp {
