@@ -1,6 +1,24 @@
 #include "physics/body.h"
 
+#include <glm/matrix.hpp>
+
 namespace mb {
+
+glm::dmat3 Body::worldInverseInertia() const {
+    if (isBall()) return inverse_inertia;
+    const glm::dmat3 r = glm::mat3_cast(orientation);
+    return r * inverse_inertia * glm::transpose(r);
+}
+
+glm::dvec3 angularMomentum(const Body& body, glm::dvec3 spin) {
+    if (body.isBall()) return body.inertia[0][0] * spin;
+    const glm::dmat3 r = glm::mat3_cast(body.orientation);
+    return r * (body.inertia * (spin * r));
+}
+
+double kineticEnergy(const Body& body, const Motion& m) {
+    return 0.5 * (glm::dot(m.velocity, m.velocity) / body.inverse_mass + glm::dot(m.spin, angularMomentum(body, m.spin)));
+}
 
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double time) {
     // A turn by an angle is (1, tan(angle/2)·axis), made a unit. tan x = x(15 − x²)/(15 − 6x²) errs by x⁷/1575
@@ -14,6 +32,35 @@ glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double 
     glm::dquat turn = glm::normalize(glm::dquat{1, tangent.x, tangent.y, tangent.z});
     for (; halvings > 0; --halvings) turn = glm::normalize(turn * turn);
     return glm::normalize(turn * orientation);
+}
+
+void turnFreely(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time) {
+    if (io_spin == glm::dvec3{0}) return;
+    if (body.isBall()) {
+        io_orientation = turned(io_orientation, io_spin, time);
+        return;
+    }
+    // In the body's frame the angular momentum m goes by m' = m × I⁻¹m. The implicit midpoint rule keeps |m|² and m·I⁻¹m, and
+    // the turn that goes with it, (1, h/2·I⁻¹(m₀ + m₁)/2) made a unit, takes m₁ in the new frame to m₀ in the old one.
+    constexpr double kMostAngle = 0.1;  // of one turn, rad: its own error is the cube of it over twelve
+    constexpr int kMostTurns = 256, kRounds = 20;
+    const double angle = glm::length(io_spin) * time;
+    const int turns = static_cast<int>(std::fmin(std::ceil(angle / kMostAngle), kMostTurns));
+    const double h = time / std::max(turns, 1);
+    const glm::dmat3 before = glm::mat3_cast(io_orientation);
+    glm::dvec3 m = body.inertia * (io_spin * before);
+    for (int i = 0; i < turns; ++i) {
+        glm::dvec3 next = m;
+        for (int round = 0; round < kRounds; ++round) {
+            const glm::dvec3 mean = 0.5 * (m + next), better = m + h * glm::cross(mean, body.inverse_inertia * mean);
+            if (better == next) break;
+            next = better;
+        }
+        const glm::dvec3 half = (0.5 * h) * (body.inverse_inertia * (0.5 * (m + next)));
+        io_orientation = glm::normalize(io_orientation * glm::normalize(glm::dquat{1, half.x, half.y, half.z}));
+        m = next;
+    }
+    io_spin = glm::mat3_cast(io_orientation) * (body.inverse_inertia * m);
 }
 
 }  // namespace mb

@@ -1,6 +1,7 @@
 #pragma once
-// A rigid body: a ball with mass. Objects of another shape move as their bounding ball and turn with it.
+// A rigid body: a ball, or any shape that has an end.
 #include "core/scene/scene.h"
+#include "physics/solid.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -9,21 +10,39 @@ namespace mb {
 struct Body {
     ObjectId object;
     std::string name;
-    glm::dvec3 position{0};            // of the ball's centre, m
-    glm::dvec3 velocity{0};            // of the centre, m/s
-    glm::dvec3 spin{0};                // rad/s, in the world's frame
+    std::shared_ptr<const Solid> solid;  // its shape about its centre of mass; none: a ball. Equal shapes share it
+    glm::dvec3 position{0};              // of the centre of mass, m
+    glm::dvec3 velocity{0};              // of the centre of mass, m/s
+    glm::dvec3 spin{0};                  // rad/s, in the world's frame
     glm::dquat orientation{1, 0, 0, 0};
-    double radius = 0;                 // m
-    double inverse_mass = 0;           // 1/kg
-    double inverse_inertia = 0;        // 1/(kg·m²): 2/5·m·r² about every axis
+    double radius = 0;                   // m: the ball's, or of the ball around the centre of mass that holds the shape
+    double inner = 0;                    // m: the ball's, or half the shape's thickness
+    double inverse_mass = 0;             // 1/kg
+    glm::dmat3 inertia{0};               // kg·m², about the centre of mass, in the body's frame
+    glm::dmat3 inverse_inertia{0};
     std::optional<double> restitution, friction;  // its own; none: the world's
-    glm::dvec3 offset{0};              // of the ball's centre from the object's origin, in the object's frame, m
-    glm::dquat placed{1, 0, 0, 0};     // the orientation the scene gave it
+    glm::dvec3 offset{0};                // of the centre of mass from the object's origin, in the object's frame, m
+    glm::dquat placed{1, 0, 0, 0};       // the orientation the scene gave it
     bool awake = true;
-    int still = 0;                     // parts of steps it has been still for
+    int still = 0;                       // parts of steps it has been still for
 
+    bool isBall() const { return !solid; }
     double mass() const { return 1 / inverse_mass; }
+    Pose pose() const { return {position, glm::mat3_cast(orientation)}; }
+    /// In the world's frame; every direction of a ball is alike.
+    glm::dmat3 worldInverseInertia() const;
 };
+
+/// What impulses change.
+struct Motion {
+    glm::dvec3 velocity{0}, spin{0};
+};
+inline Motion motionOf(const Body& b) { return {b.velocity, b.spin}; }
+
+/// About the centre of mass, in the world's frame, kg·m²/s.
+glm::dvec3 angularMomentum(const Body& body, glm::dvec3 spin);
+/// The body's if it moved so, J.
+double kineticEnergy(const Body& body, const Motion& motion);
 
 /// What two surfaces do to one another.
 struct Pairing {
@@ -46,5 +65,9 @@ inline Pairing pairing(const World& world, const Body& a, const Body& b) {
 
 /// Turns an orientation by spin·time, with +, ·, ÷ and √ only, so that every compiler's result is the same to the bit.
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double time);
+
+/// Turns a body's orientation freely for a time, and its spin with it: the angular momentum keeps its value and direction, and
+/// the energy its value, to rounding. Source: Austin, Krishnaprasad, Wang, "Almost Poisson Integration of Rigid Body Systems" (1993).
+void turnFreely(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time);
 
 }  // namespace mb

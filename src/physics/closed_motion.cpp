@@ -115,7 +115,7 @@ std::optional<Track> closedTrack(const Scene& scene, double seconds, double ever
             const Body& b = world.bodies()[i];
             if (glm::length(f.place) > scene.world.bounds) return std::nullopt;
             places.push_back(f.place);
-            kinetic += 0.5 * (glm::dot(f.velocity, f.velocity) / b.inverse_mass + glm::dot(f.spin, f.spin) / b.inverse_inertia);
+            kinetic += 0.5 * (glm::dot(f.velocity, f.velocity) / b.inverse_mass + glm::dot(f.spin, f.spin) / b.inverse_inertia[0][0]);
             potential += g * f.place.y / b.inverse_mass;
         }
         track.energy.push_back(kinetic + potential), track.kinetic.push_back(kinetic);

@@ -5,87 +5,167 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace mb {
 namespace {
 
-/// A contact with what the rounds need again and again.
-template <bool spins, bool drags> struct Row {
+/// A contact of balls with what the rounds need again and again. A ball's normal impulse passes through its centre and turns
+/// nothing; the tangential one acts at the lever r and meets the mass 1/(1/m + r²/I), which is 2/7·m for a solid ball.
+template <bool spins> struct BallRow {
     Contact& contact;
-    const Body& a;
-    const Body* b;
     Motion& motion_a;
     Motion* motion_b;
+    double inverse_a = 0, inverse_b = 0;   // masses
+    double radius_a = 0, radius_b = 0;
+    double turn_a = 0, turn_b = 0;         // radius / moment of inertia
     double normal_mass = 0, tangent_mass = 0;
 
+    BallRow(std::span<const Body> bodies, Contact& c, Motion& a, Motion* b) : contact(c), motion_a(a), motion_b(b) {
+        const Body& of_a = bodies[static_cast<std::size_t>(c.a)];
+        inverse_a = of_a.inverse_mass, radius_a = of_a.radius, turn_a = of_a.radius * of_a.inverse_inertia[0][0];
+        if (b) {
+            const Body& of_b = bodies[static_cast<std::size_t>(c.b)];
+            inverse_b = of_b.inverse_mass, radius_b = of_b.radius, turn_b = of_b.radius * of_b.inverse_inertia[0][0];
+        }
+        const double inverse = inverse_a + inverse_b, turning = spins ? radius_a * turn_a + radius_b * turn_b : 0;
+        normal_mass = 1 / inverse, tangent_mass = 1 / (inverse + turning);
+    }
     glm::dvec3 velocity() const {
-        if constexpr (!spins) return b ? motion_a.velocity - motion_b->velocity : motion_a.velocity;
-        glm::dvec3 v = motion_a.velocity - a.radius * glm::cross(motion_a.spin, contact.normal);
-        if (b) v -= motion_b->velocity + b->radius * glm::cross(motion_b->spin, contact.normal);
+        if constexpr (!spins) return motion_b ? motion_a.velocity - motion_b->velocity : motion_a.velocity;
+        glm::dvec3 v = motion_a.velocity - radius_a * glm::cross(motion_a.spin, contact.normal);
+        if (motion_b) v -= motion_b->velocity + radius_b * glm::cross(motion_b->spin, contact.normal);
         return v;
     }
     void push(double impulse) const {
-        motion_a.velocity += (impulse * a.inverse_mass) * contact.normal;
-        if (b) motion_b->velocity -= (impulse * b->inverse_mass) * contact.normal;
+        motion_a.velocity += (impulse * inverse_a) * contact.normal;
+        if (motion_b) motion_b->velocity -= (impulse * inverse_b) * contact.normal;
     }
     void drag(const glm::dvec3& impulse) const {
-        motion_a.velocity += a.inverse_mass * impulse;
-        if (b) motion_b->velocity -= b->inverse_mass * impulse;
+        motion_a.velocity += inverse_a * impulse;
+        if (motion_b) motion_b->velocity -= inverse_b * impulse;
         if constexpr (!spins) return;
         const glm::dvec3 turn = glm::cross(contact.normal, impulse);
-        motion_a.spin -= (a.radius * a.inverse_inertia) * turn;
-        if (b) motion_b->spin -= (b->radius * b->inverse_inertia) * turn;
+        motion_a.spin -= turn_a * turn;
+        if (motion_b) motion_b->spin -= turn_b * turn;
     }
+    /// The tangential impulse that changes the slip by that much.
+    glm::dvec3 dragFor(const glm::dvec3& slip) const { return tangent_mass * slip; }
+};
 
-    /// One turn; says by how much it changed a velocity at the contact.
-    double turn(std::uint64_t& io_drags) const {
-        const double wanted = contact.push + normal_mass * (contact.target - glm::dot(velocity(), contact.normal));
-        const double pushed = std::max(wanted, 0.0), change = pushed - contact.push;
-        contact.push = pushed;
-        push(change);
-        const double changed = std::fabs(change) / normal_mass;
-        if constexpr (!drags) return changed;
-        else return std::max(changed, turnDrag(io_drags));
+/// The same of any bodies: the levers are the contact's arms, and how hard a body is to turn depends on the axis.
+template <bool spins> struct LeverRow {
+    Contact& contact;
+    Motion& motion_a;
+    Motion* motion_b;
+    double inverse_a = 0, inverse_b = 0, normal_mass = 0;
+    glm::dmat3 turning_a{0}, turning_b{0};  // inverse inertia, in the world's frame
+    glm::dvec3 turn_a{0}, turn_b{0};        // by a normal impulse of 1
+    glm::dvec3 t{0}, u{0};                  // unit tangents
+    double tt = 0, tu = 0, uu = 0;          // of the inverse of the matrix from tangential impulses to slips
+
+    LeverRow(std::span<const Body> bodies, Contact& c, Motion& a, Motion* b) : contact(c), motion_a(a), motion_b(b) {
+        const Body& of_a = bodies[static_cast<std::size_t>(c.a)];
+        inverse_a = of_a.inverse_mass;
+        if (spins) turning_a = of_a.worldInverseInertia(), turn_a = turning_a * glm::cross(c.arm_a, c.normal);
+        if (b) {
+            const Body& of_b = bodies[static_cast<std::size_t>(c.b)];
+            inverse_b = of_b.inverse_mass;
+            if (spins) turning_b = of_b.worldInverseInertia(), turn_b = turning_b * glm::cross(c.arm_b, c.normal);
+        }
+        normal_mass = 1 / glm::dot(c.normal, response(c.normal));
+        const glm::dvec3 n = c.normal, size = glm::abs(n);
+        t = glm::normalize(glm::cross(n, size.x < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0})), u = glm::cross(n, t);
+        const glm::dvec3 by_t = response(t), by_u = response(u);
+        const double a11 = glm::dot(t, by_t), a12 = glm::dot(t, by_u), a22 = glm::dot(u, by_u), det = a11 * a22 - a12 * a12;
+        tt = a22 / det, tu = -a12 / det, uu = a11 / det;
     }
-    double turnDrag(std::uint64_t& io_drags) const {
-        const double limit = contact.pairing.friction * contact.push;
-        if (limit == 0 && contact.drag == glm::dvec3{0}) return 0;
-        ++io_drags;
-        const glm::dvec3 v = velocity(), slip = v - glm::dot(v, contact.normal) * contact.normal;
-        glm::dvec3 drag_now = contact.drag + tangent_mass * (contact.slip - slip);
-        const double size = glm::length(drag_now);
-        if (size > limit) drag_now *= limit / size;
-        const glm::dvec3 drag_change = drag_now - contact.drag;
-        contact.drag = drag_now;
-        drag(drag_change);
-        return glm::length(drag_change) / tangent_mass;
+    /// By how much an impulse changes the relative velocity.
+    glm::dvec3 response(const glm::dvec3& impulse) const {
+        glm::dvec3 v = (inverse_a + inverse_b) * impulse;
+        if constexpr (spins) {
+            v += glm::cross(turning_a * glm::cross(contact.arm_a, impulse), contact.arm_a);
+            if (motion_b) v += glm::cross(turning_b * glm::cross(contact.arm_b, impulse), contact.arm_b);
+        }
+        return v;
+    }
+    glm::dvec3 velocity() const { return relativeVelocity(motion_a, motion_b, contact, spins); }
+    void push(double impulse) const {
+        motion_a.velocity += (impulse * inverse_a) * contact.normal;
+        if (motion_b) motion_b->velocity -= (impulse * inverse_b) * contact.normal;
+        if constexpr (!spins) return;
+        motion_a.spin += impulse * turn_a;
+        if (motion_b) motion_b->spin -= impulse * turn_b;
+    }
+    void drag(const glm::dvec3& impulse) const {
+        motion_a.velocity += inverse_a * impulse;
+        if (motion_b) motion_b->velocity -= inverse_b * impulse;
+        if constexpr (!spins) return;
+        motion_a.spin += turning_a * glm::cross(contact.arm_a, impulse);
+        if (motion_b) motion_b->spin -= turning_b * glm::cross(contact.arm_b, impulse);
+    }
+    glm::dvec3 dragFor(const glm::dvec3& slip) const {
+        const double s = glm::dot(t, slip), r = glm::dot(u, slip);
+        return (tt * s + tu * r) * t + (tu * s + uu * r) * u;
     }
 };
 
-/// The inverse of the mass that a push meets, and what a drag meets besides.
-struct Resistance {
-    double inverse = 0, turning = 0;
-};
-Resistance resistanceOf(const Body& b) { return {b.inverse_mass, b.radius * b.radius * b.inverse_inertia}; }
+/// Turns the drag towards no slip, within Coulomb's cone; says by how much it changed a velocity.
+template <class Row> double turnDrag(const Row& row, std::uint64_t& io_drags) {
+    Contact& c = row.contact;
+    const double limit = c.pairing.friction * c.push;
+    if (limit == 0 && c.drag == glm::dvec3{0}) return 0;
+    ++io_drags;
+    const glm::dvec3 v = row.velocity(), slip = v - glm::dot(v, c.normal) * c.normal;
+    glm::dvec3 drag_now = c.drag + row.dragFor(c.slip - slip);
+    const double size = glm::length(drag_now);
+    if (size > limit) drag_now *= limit / size;
+    const glm::dvec3 change = drag_now - c.drag;
+    c.drag = drag_now;
+    row.drag(change);
+    return glm::length(change) * (row.inverse_a + row.inverse_b);
+}
+
+/// One turn; says by how much it changed a velocity at the contact.
+template <bool drags, class Row> double turn(const Row& row, std::uint64_t& io_drags) {
+    Contact& c = row.contact;
+    const double wanted = c.push + row.normal_mass * (c.target - glm::dot(row.velocity(), c.normal));
+    const double pushed = std::max(wanted, 0.0), change = pushed - c.push;
+    c.push = pushed;
+    row.push(change);
+    const double changed = std::fabs(change) / row.normal_mass;
+    if constexpr (!drags) return changed;
+    else return std::max(changed, turnDrag(row, io_drags));
+}
+
+template <bool drags, class Row> void begin(std::vector<Row>& io_rows, std::span<const Body> bodies, Contact& c, std::span<Motion> motion) {
+    io_rows.emplace_back(bodies, c, motion[static_cast<std::size_t>(c.a)], c.b == kStatic ? nullptr : &motion[static_cast<std::size_t>(c.b)]);
+    if (c.push != 0) io_rows.back().push(c.push);
+    if constexpr (drags)
+        if (c.drag != glm::dvec3{0}) io_rows.back().drag(c.drag);
+}
+
+bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
+    return bodies[static_cast<std::size_t>(c.a)].isBall() && (c.b == kStatic || bodies[static_cast<std::size_t>(c.b)].isBall());
+}
 
 template <bool spins, bool drags>
 void solveRows(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, StepCounts& io_counts) {
-    std::vector<Row<spins, drags>> rows;
-    rows.reserve(contacts.size());
+    std::vector<BallRow<spins>> ball_rows;
+    std::vector<LeverRow<spins>> lever_rows;
+    ball_rows.reserve(contacts.size());
     for (Contact& c : contacts) {
-        const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(std::max(c.b, 0));
-        const bool fixed = c.b == kStatic;
-        Row<spins, drags> row{c, bodies[a], fixed ? nullptr : &bodies[b], motion[a], fixed ? nullptr : &motion[b]};
-        const Resistance of_a = resistanceOf(bodies[a]), of_b = fixed ? Resistance{} : resistanceOf(bodies[b]);
-        const double inverse = of_a.inverse + of_b.inverse, turning = spins ? of_a.turning + of_b.turning : 0;
-        row.normal_mass = 1 / inverse, row.tangent_mass = 1 / (inverse + turning);
-        row.push(c.push);
-        if constexpr (drags)
-            if (c.drag != glm::dvec3{0}) row.drag(c.drag);
-        rows.push_back(row);
+        if (betweenBalls(bodies, c)) begin<drags>(ball_rows, bodies, c, motion);
+        else begin<drags>(lever_rows, bodies, c, motion);
     }
     for (int round = 0; round < rounds; ++round) {
+        // Shapes there and back: what the foot of a stack learns, its top has within a round. (Two balls on one another, of
+        // very different masses, would lose every second round by that.)
         double changed = 0;
-        for (const Row<spins, drags>& row : rows) changed = std::max(changed, row.turn(io_counts.drags));
+        const auto visit = [&](const auto& row) { changed = std::max(changed, turn<drags>(row, io_counts.drags)); };
+        std::ranges::for_each(ball_rows, visit);
+        if (round % 2 == 0) std::ranges::for_each(lever_rows, visit);
+        else std::for_each(lever_rows.rbegin(), lever_rows.rend(), visit);
         ++io_counts.rounds;
         if (changed <= 1e-12) return;
     }
@@ -102,11 +182,31 @@ glm::dvec3 directionApart(const Body& a, const Body& b) {
     return glm::dot(n, n) > 1e-6 ? glm::normalize(n) : glm::dvec3{0, 1, 0};
 }
 
-glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Motion& a, const Motion* b, const Contact& c, bool spins) {
+Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pairing pairing) {
+    Contact c;
+    c.a = a, c.normal = normal, c.gap = gap, c.arm_a = -body.radius * normal, c.pairing = pairing;
+    return c;
+}
+
+Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing) {
+    const double gap = glm::length(body_a.position - body_b.position) - body_a.radius - body_b.radius;
+    Contact c = ballContact(a, body_a, directionApart(body_a, body_b), gap, pairing);
+    c.b = b, c.arm_b = body_b.radius * c.normal;
+    return c;
+}
+
+glm::dvec3 relativeVelocity(const Motion& a, const Motion* b, const Contact& c, bool spins) {
     if (!spins) return b ? a.velocity - b->velocity : a.velocity;
-    glm::dvec3 v = a.velocity - bodies[static_cast<std::size_t>(c.a)].radius * glm::cross(a.spin, c.normal);
-    if (b) v -= b->velocity + bodies[static_cast<std::size_t>(c.b)].radius * glm::cross(b->spin, c.normal);
+    glm::dvec3 v = a.velocity + glm::cross(a.spin, c.arm_a);
+    if (b) v -= b->velocity + glm::cross(b->spin, c.arm_b);
     return v;
+}
+
+glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Contact& c, bool spins) {
+    const Motion a = motionOf(bodies[static_cast<std::size_t>(c.a)]);
+    if (c.b == kStatic) return relativeVelocity(a, nullptr, c, spins);
+    const Motion b = motionOf(bodies[static_cast<std::size_t>(c.b)]);
+    return relativeVelocity(a, &b, c, spins);
 }
 
 void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, Stages stages,

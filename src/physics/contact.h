@@ -1,8 +1,5 @@
 #pragma once
-// Contacts between balls, and between balls and static points, and the impulses that keep them apart.
-//
-// A ball's normal impulse passes through its centre and turns nothing; the tangential one acts at the lever r and meets
-// the mass 1/(1/m + r²/I), which is 2/7·m for a solid ball.
+// Contacts of bodies, with one another and with what does not move, and the impulses that keep them apart.
 #include "physics/body.h"
 #include "physics/stages.h"
 
@@ -16,6 +13,8 @@ struct Contact {
     int a = 0, b = kStatic;        // numbers of bodies; b may be static
     glm::dvec3 normal{0};          // unit, from b towards a
     double gap = 0;                // m
+    glm::dvec3 arm_a{0}, arm_b{0}; // from the centres of mass to the contact, m
+    std::uint64_t feature = 0;     // what it was found from (manifold.h); 0 for a ball's
     Pairing pairing;
     double target = 0;             // the least normal velocity of a against b afterwards, m/s
     glm::dvec3 slip{0};            // the tangential velocity at the contact to reach if friction can, m/s
@@ -23,16 +22,17 @@ struct Contact {
     glm::dvec3 drag{0};            // the tangential one
 };
 
-/// What impulses change.
-struct Motion {
-    glm::dvec3 velocity{0}, spin{0};
-};
-
 /// The unit vector from b's centre to a's. Centres that coincide are parted in a direction that follows from their ids.
 glm::dvec3 directionApart(const Body& a, const Body& b);
 
-/// The velocity of a's surface against b's at the contact, or of the centres, where no surface turns.
-glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Motion& a, const Motion* b, const Contact& c, bool spins);
+/// Of a ball a with what does not move, or with another ball.
+Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pairing pairing);
+Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing);
+
+/// The velocity of a's surface against b's at the contact, or of the centres, where no surface turns. b: null for a static one.
+glm::dvec3 relativeVelocity(const Motion& a, const Motion* b, const Contact& c, bool spins);
+/// The same of bodies as they move.
+glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Contact& c, bool spins);
 
 /// Solves for impulses by turns (sequential impulses; Catto, "Iterative Dynamics with Temporal Coherence", 2005) until
 /// the last round changed no velocity by more than 1e-12 m/s, or `rounds` is reached. `motion` is indexed by the body's

@@ -1,6 +1,6 @@
 // Between a scene and its physics: which objects move, with what mass, and where they came to lie.
 #include "core/effects/effect.h"
-#include "physics/volume.h"
+#include "physics/mass_properties.h"
 #include "physics/world.h"
 
 #include <fmt/format.h>
@@ -13,74 +13,103 @@
 namespace mb {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-/// The object alone in a scene, neither moved nor turned: its shape in its own frame, scaled.
-Tree ownShape(const Scene& scene, std::size_t object) {
-    Scene alone;
+/// The records of one top-level object alone, neither moved nor turned: its shape in its own frame, scaled.
+Scene alone(const Scene& scene, std::size_t object) {
+    Scene one;
     const auto begin = scene.objects.begin();
-    alone.objects.assign(begin + static_cast<std::ptrdiff_t>(object), begin + static_cast<std::ptrdiff_t>(subtreeEnd(scene, object)));
-    for (Object& o : alone.objects) o.parent = o.parent == kNoParent ? kNoParent : o.parent - static_cast<int>(object), o.material = kNoMaterial;
-    alone.objects[0].pos = alone.objects[0].rot = glm::dvec3{0};
-    return makeTree(alone);
+    one.objects.assign(begin + static_cast<std::ptrdiff_t>(object), begin + static_cast<std::ptrdiff_t>(subtreeEnd(scene, object)));
+    for (Object& o : one.objects) {
+        o.parent = o.parent == kNoParent ? kNoParent : o.parent - static_cast<int>(object);
+        o.material = kNoMaterial, o.name.clear();
+    }
+    Object& o = one.objects[0];
+    o.pos = o.rot = o.vel = o.spin = glm::dvec3{0};
+    o.mass = o.density = 0;
+    o.restitution = o.friction = {};
+    return one;
 }
 
-/// Whether the object moves; if not though it should, why.
+/// What the object's shape and mass make of it as a body; if it does not move though it should, why.
 struct Movable {
-    bool moves = false;
     std::string_view why_not;
-    glm::dvec3 centre{0};  // of the bounding ball, in the object's frame
-    double radius = 0;
     double mass = 0;
+    glm::dvec3 centre{0};  // of mass, in the object's frame
+    glm::dmat3 inertia{0};
+    double radius = 0;
+    std::shared_ptr<const Solid> solid;
 };
 
-Movable movable(const Scene& scene, std::size_t object) {
-    const Object& o = scene.objects[object];
+Movable ballOf(const Object& o) {
     Movable m;
-    if (o.parent != kNoParent || o.hidden || !o.isBody()) return m;
-    if (o.type->name == "sphere") {
-        m.radius = o.numbers[0] * o.scale;
-        m.mass = o.mass > 0 ? o.mass : o.density * (4.0 / 3 * kPi * m.radius * m.radius * m.radius);
-    } else {
-        const Tree tree = ownShape(scene, object);
-        if (!tree.fault.empty()) return m.why_not = "it cannot be evaluated", m;
-        const Box box = bounds(tree);
-        double sum = 0;
-        for (int i = 0; i < 3; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            if (!(box.lo[k] <= box.hi[k])) return m.why_not = "it is empty", m;
-            if (!std::isfinite(box.lo[k]) || !std::isfinite(box.hi[k])) return m.why_not = "it is infinite", m;
-            m.centre[i] = 0.5 * (box.lo[k] + box.hi[k]);
-            sum += 0.25 * (box.hi[k] - box.lo[k]) * (box.hi[k] - box.lo[k]);
-        }
-        m.radius = std::sqrt(sum);
-        m.mass = o.mass > 0 ? o.mass : o.density * volume(tree).value;
-    }
-    const double inertia = 0.4 * m.mass * m.radius * m.radius;
-    if (!(inertia > 0) || !std::isfinite(1 / inertia) || !std::isfinite(inertia)) m.why_not = "its mass or its size is out of range";
-    m.moves = m.why_not.empty();
+    m.radius = o.numbers[0] * o.scale;
+    m.mass = o.mass > 0 ? o.mass : o.density * (4.0 / 3 * 3.14159265358979323846 * m.radius * m.radius * m.radius);
+    m.inertia = glm::dmat3(0.4 * m.mass * m.radius * m.radius);
     return m;
+}
+
+/// About the centre of mass, and no further.
+Movable shapeOf(const Scene& shape, const Object& o) {
+    Movable m;
+    Tree tree = makeTree(shape);
+    if (!tree.fault.empty()) return m.why_not = "it cannot be evaluated", m;
+    const Box box = bounds(tree);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(box.lo[k] <= box.hi[k])) return m.why_not = "it is empty", m;
+    if (!isFinite(box)) return m.why_not = "it is infinite", m;
+    const MassProperties mass = massProperties(tree);
+    if (!(mass.volume > 0)) return m.why_not = "it is empty", m;
+    const double density = o.mass > 0 ? o.mass / mass.volume : o.density;
+    m.mass = density * mass.volume, m.inertia = density * mass.inertia, m.centre = mass.centre;
+    Scene centred = shape;
+    centred.objects[0].pos = -mass.centre;
+    m.solid = std::make_shared<const Solid>(makeSolid(makeTree(centred), true));
+    m.radius = m.solid->radius;
+    return m;
+}
+
+bool isOutOfRange(const Movable& m) {
+    double least = INFINITY, sum = 0;
+    for (int i = 0; i < 3; ++i) least = std::min(least, m.inertia[i][i]), sum += m.inertia[i][i];
+    return !(least > 0) || !std::isfinite(1 / least) || !std::isfinite(sum) || !std::isfinite(m.mass) || !std::isfinite(1 / m.mass);
 }
 
 }  // namespace
 
 PhysicsWorld::PhysicsWorld(const Scene& scene, StageChoice choice) : world_(scene.world), knobs_(scene.physics), choice_(choice) {
-    for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) addBody(scene, i);
+    std::vector<Made> made;
+    for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) addBody(scene, i, made);
     changeStatics(scene);
 }
 
-void PhysicsWorld::addBody(const Scene& scene, std::size_t object) {
+/// Adds the object if it is a body. Equal shapes are made once.
+void PhysicsWorld::addBody(const Scene& scene, std::size_t object, std::vector<Made>& io_made) {
     const Object& o = scene.objects[object];
-    const Movable m = movable(scene, object);
-    if (!m.why_not.empty()) note(fmt::format("{}: does not move, {}", label(scene, object), m.why_not));
-    if (!m.moves) return;
+    if (o.parent != kNoParent || o.hidden || !o.isBody()) return;
+    Movable m;
+    if (o.type->name == "sphere") {
+        m = ballOf(o);
+    } else {
+        Scene shape = alone(scene, object);
+        const auto made = std::ranges::find_if(io_made, [&](const Made& x) { return x.mass == o.mass && x.density == o.density && sameScene(x.shape, shape); });
+        if (made != io_made.end()) {
+            const Body& twin = bodies_[made->body];
+            m.mass = twin.mass(), m.inertia = twin.inertia, m.centre = twin.offset, m.radius = twin.radius, m.solid = twin.solid;
+        } else {
+            m = shapeOf(shape, o);
+            if (m.why_not.empty() && !isOutOfRange(m)) io_made.push_back({std::move(shape), o.mass, o.density, bodies_.size()});
+        }
+    }
+    if (m.why_not.empty() && isOutOfRange(m)) m.why_not = "its mass or its size is out of range";
+    if (!m.why_not.empty()) return note(fmt::format("{}: does not move, {}", label(scene, object), m.why_not));
     Body b;
-    b.object = o.id, b.name = label(scene, object);
+    b.object = o.id, b.name = label(scene, object), b.solid = m.solid;
     b.orientation = b.placed = glm::normalize(glm::quat_cast(rotationFromDegrees(o.rot)));
     b.offset = m.centre;
     b.position = o.pos + (m.centre == glm::dvec3{0} ? m.centre : rotationFromDegrees(o.rot) * m.centre);
-    b.velocity = o.vel, b.spin = o.spin + glm::dvec3{0};  // −0 becomes 0, as it would where spin is summed
-    b.radius = m.radius, b.inverse_mass = 1 / m.mass, b.inverse_inertia = 1 / (0.4 * m.mass * m.radius * m.radius);
+    b.velocity = o.vel;  // of the centre of mass
+    b.spin = o.spin + glm::dvec3{0};  // −0 becomes 0, as it would where spin is summed
+    b.radius = m.radius, b.inner = m.solid ? m.solid->inner : m.radius;
+    b.inverse_mass = 1 / m.mass, b.inertia = m.inertia, b.inverse_inertia = glm::inverse(m.inertia);
     b.restitution = o.restitution, b.friction = o.friction;
     bodies_.push_back(std::move(b));
     near_.emplace_back();
@@ -95,11 +124,17 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
         const ObjectId id = scene.objects[i].id;
         return std::ranges::none_of(bodies_, [&](const Body& b) { return b.object == id; }) && std::ranges::find(gone_, id) == gone_.end();
     };
-    if (!bodies_.empty()) field_ = StaticField(scene, is_solid, notes, &field_before);  // else nobody would ask it
+    countShapes();
+    if (!bodies_.empty()) field_ = StaticField(scene, is_solid, notes, &field_before, !allBalls());  // else nobody would ask it
     for (std::string& text : notes) note(std::move(text));
     for (NearStatics& near : near_) near = {};
+    memory_.clear();
     for (Body& b : bodies_) b.awake = true, b.still = 0;
     compose();
+}
+
+void PhysicsWorld::countShapes() {
+    shapes_ = static_cast<int>(std::ranges::count_if(bodies_, [](const Body& b) { return !b.isBall(); }));
 }
 
 /// Asks the table of effects about the bodies and solids there are, as records of a scene.
@@ -110,8 +145,10 @@ void PhysicsWorld::compose() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& b = bodies_[i];
         Object& o = scene.objects[i];
+        o.type = findShapeType(b.isBall() ? "sphere" : "box");  // for any shape
         o.mass = b.mass(), o.spin = b.spin, o.restitution = b.restitution, o.friction = b.friction;
     }
+    countShapes();
     stages_ = choice_.from(calledFor(scene));
     // What sleeps, or is about to, must be able to wake.
     const bool still = std::ranges::any_of(bodies_, [](const Body& b) { return !b.awake || b.still > 0; });

@@ -8,9 +8,23 @@
 
 namespace mb {
 
+double travelOf(const Body& body, const FlightRules& rules) {
+    const double h = rules.duration, turning = body.isBall() ? 0 : body.radius * glm::length(body.spin);
+    return (glm::length(body.velocity) + turning + std::fabs(rules.world.gravity) * h) * h;
+}
+
+bool metInFlight(const Body& a, const FlightRules& rules) {
+    return a.isBall() || (rules.stages.has(Stage::continuous) && travelOf(a, rules) > kNear * a.inner);
+}
+
+bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
+    if (a.isBall() && b.isBall()) return true;
+    return rules.stages.has(Stage::continuous) && travelOf(a, rules) + travelOf(b, rules) > kNear * std::min(a.inner, b.inner);
+}
+
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
                std::span<const Motion> accelerations, StepCounts& io_counts)
-    : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), paths_(bodies.size()) {
+    : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), collider_(rules.world, field, io_counts), paths_(bodies.size()) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin;
     if (!has(Stage::continuous)) return;
@@ -62,6 +76,42 @@ glm::dvec3 Flight::positionAt(std::size_t i, double t) const {
     return bodies_[i].position + s * bodies_[i].velocity + (0.5 * s * s) * paths_[i].acceleration;
 }
 
+/// Where a body is at a time, turned as it will be.
+Pose Flight::poseAt(std::size_t i, double t) const {
+    Pose pose{positionAt(i, t), glm::dmat3{1}};
+    const Body& b = bodies_[i];
+    if (b.isBall()) return pose;
+    glm::dquat orientation = b.orientation;
+    glm::dvec3 spin = b.spin;
+    const double s = t - paths_[i].time;
+    if (s > 0 && !paths_[i].held && b.awake && has(Stage::spin)) {
+        spin += (0.5 * s) * paths_[i].turning;
+        turnFreely(b, orientation, spin, s);
+    }
+    pose.rotation = glm::mat3_cast(orientation);
+    return pose;
+}
+
+Motion Flight::motionAt(std::size_t i, double t) const {
+    if (paths_[i].held || !bodies_[i].awake) return {};
+    return {velocityAt(i, t), bodies_[i].spin + (t - paths_[i].time) * paths_[i].turning};
+}
+
+/// No point of the body is faster than this until the end of the part, m/s.
+double Flight::fastest(std::size_t i) const {
+    if (paths_[i].held || !bodies_[i].awake) return 0;
+    const Body& b = bodies_[i];
+    const double left = rules_.duration - paths_[i].time;
+    // A shape that turns freely may come to turn faster, about the axis it is easiest to turn about.
+    double turning = 0;
+    if (!b.isBall()) {
+        double stiff = b.inertia[0][0], easy = b.inertia[0][0];
+        for (int k = 1; k < 3; ++k) stiff = std::max(stiff, b.inertia[k][k]), easy = std::min(easy, b.inertia[k][k]);
+        turning = b.radius * (glm::length(b.spin) * std::sqrt(stiff / easy) + left * glm::length(paths_[i].turning));
+    }
+    return glm::length(b.velocity) + left * glm::length(paths_[i].acceleration) + turning;
+}
+
 glm::dvec3 Flight::velocityAt(std::size_t i, double t) const {
     if (paths_[i].held || !bodies_[i].awake) return glm::dvec3{0};
     return bodies_[i].velocity + (t - paths_[i].time) * paths_[i].acceleration;
@@ -77,8 +127,14 @@ void Flight::advance(std::size_t i, double t) {
         b.velocity += s * path.acceleration;
         if (has(Stage::spin)) {
             ++counts_.turned;
-            b.orientation = turned(b.orientation, b.spin + (0.5 * s) * path.turning, s);
-            b.spin += s * path.turning;
+            if (b.isBall()) {
+                b.orientation = turned(b.orientation, b.spin + (0.5 * s) * path.turning, s);
+                b.spin += s * path.turning;
+            } else {
+                b.spin += (0.5 * s) * path.turning;
+                turnFreely(b, b.orientation, b.spin, s);
+                b.spin += (0.5 * s) * path.turning;
+            }
         }
     }
     path.time = t;
@@ -88,9 +144,10 @@ void Flight::advance(std::size_t i, double t) {
 void Flight::expectStatic(std::size_t i) {
     if (!has(Stage::static_contacts) || field_.empty() || paths_[i].held || !bodies_[i].awake) return;
     const Body& b = bodies_[i];
+    if (!b.isBall()) return expectStaticOfShape(i);
     const double from = paths_[i].time, to = rules_.duration;
     const double speed = glm::length(b.velocity) + (to - from) * glm::length(paths_[i].acceleration);
-    const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.radius)};
+    const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.inner)};
     if (rules_.proofs && noStaticAhead(i, to - from, limits)) return;
     const auto gap_at = [&](double t) {
         near_[i].moveTo(field_, positionAt(i, t), b.radius, counts_);
@@ -121,6 +178,7 @@ bool Flight::noStaticAhead(std::size_t i, double duration, const ApproachLimits&
 
 void Flight::expectPair(std::size_t i, std::size_t j) {
     if (!bodies_[i].awake && !bodies_[j].awake) return;
+    if (!bodies_[i].isBall() || !bodies_[j].isBall()) return expectPairOfShapes(i, j);
     const double sum = bodies_[i].radius + bodies_[j].radius;
     const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration;
     const auto gap_at = [&](double t) {
@@ -144,6 +202,60 @@ void Flight::expectPair(std::size_t i, std::size_t j) {
     }
     ++counts_.searches;
     const Meeting m = firstMeeting(gap_at, from, to, limits);
+    if (!m.found) return;
+    const auto [a, b] = std::minmax(i, j);
+    events_.push({m.time, static_cast<int>(a), static_cast<int>(b), paths_[a].version, paths_[b].version});
+}
+
+/// The gap of a shape to what does not move (j = i), or of two bodies of which one is a shape.
+GapAt Flight::shapeGap(std::size_t i, std::size_t j, double t, double margin) {
+    const Pose at = poseAt(i, t);
+    std::vector<Contact> contacts;
+    if (i == j) {
+        const double room = field_.room(at.position, bodies_[i].radius);
+        if (room > margin) return {room, 0, false};
+        collider_.withStatics(static_cast<int>(i), bodies_[i], at, margin, near_[i], contacts);
+    } else {
+        const Pose other = poseAt(j, t);
+        const double room = glm::length(at.position - other.position) - bodies_[i].radius - bodies_[j].radius;
+        if (room > margin) return {room, 0, false};
+        collider_.between(static_cast<int>(i), bodies_[i], at, static_cast<int>(j), bodies_[j], other, margin, contacts);
+    }
+    if (contacts.empty()) return {margin, 0, false};
+    // Of points that touch at once the one approached fastest tells, else the nearest.
+    GapAt g{INFINITY, 0, true};
+    for (const Contact& c : contacts) {
+        const Motion a = motionAt(static_cast<std::size_t>(c.a), t), b = c.b == kStatic ? Motion{} : motionAt(static_cast<std::size_t>(c.b), t);
+        const double rate = glm::dot(relativeVelocity(a, c.b == kStatic ? nullptr : &b, c, has(Stage::spin)), c.normal);
+        const bool touches = c.gap <= 0 && g.gap <= 0;
+        if (touches) g.rate = std::min(g.rate, rate), g.gap = std::min(g.gap, c.gap);
+        else if (c.gap < g.gap) g.gap = c.gap, g.rate = rate;
+    }
+    return g;
+}
+
+void Flight::expectStaticOfShape(std::size_t i) {
+    const Body& b = bodies_[i];
+    if (!metInFlight(b, rules_)) return;
+    const double from = paths_[i].time, to = rules_.duration, speed = fastest(i), stride = kNear * b.inner;
+    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(b.inner)};
+    if (rules_.proofs && cannotReach(field_.room(positionAt(i, from), b.radius), to - from, limits, b.radius)) return;
+    ++counts_.searches;
+    const Meeting m = firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits);
+    if (m.stuck) paths_[i].events = kEventsAPart;
+    if (m.found || m.stuck) events_.push({m.time, static_cast<int>(i), kStatic, paths_[i].version, 0});
+}
+
+void Flight::expectPairOfShapes(std::size_t i, std::size_t j) {
+    const Body &x = bodies_[i], &y = bodies_[j];
+    if (!metInFlight(x, y, rules_)) return;
+    const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration, inner = std::min(x.inner, y.inner);
+    const ApproachLimits limits{fastest(i) + fastest(j), kNear * inner, rules_.bounce, restDepth(inner)};
+    const double room = glm::length(positionAt(i, from) - positionAt(j, from)) - x.radius - y.radius;
+    ++counts_.body_gaps;
+    if (rules_.proofs && cannotReach(room - 1e-9 * (x.radius + y.radius), to - from, limits, inner)) return;
+    ++counts_.searches;
+    const Meeting m = firstMeeting([&](double t) { return shapeGap(i, j, t, limits.stride); }, from, to, limits);
     if (!m.found) return;
     const auto [a, b] = std::minmax(i, j);
     events_.push({m.time, static_cast<int>(a), static_cast<int>(b), paths_[a].version, paths_[b].version});

@@ -1,22 +1,21 @@
 #pragma once
-// One part of a step: every ball along its path, from impact to impact in the order of time.
+// One part of a step: every body along its path, from impact to impact in the order of time.
 //
-// Between impacts a ball's acceleration is constant, so its path is exact for any length of step; an impact is resolved
-// at the moment it happens. Each ball keeps its own clock inside the part and is brought forward when something happens
+// Between impacts a body's acceleration is constant, so its path is exact for any length of step; an impact is resolved
+// at the moment it happens. Each body keeps its own clock inside the part and is brought forward when something happens
 // to it (event-driven dynamics; Lubachevsky, "How to Simulate Billiards and Similar Systems", 1991).
+//
+// Impacts are looked for along the paths of balls, and of other shapes where they are so fast that they might pass through
+// something. A slow shape's are met at the start of the part, by contacts that look ahead (rest.cpp).
 #include "physics/approach.h"
 #include "physics/broadphase.h"
-#include "physics/contact.h"
-#include "physics/near_statics.h"
+#include "physics/collide.h"
 
 #include <queue>
 
 namespace mb {
 
-/// How deep a resting ball may sink before it counts as moving into what it rests on, m.
-inline double restDepth(double radius) { return std::min(1e-4, 1e-3 * radius); }
-
-inline constexpr int kEventsAPart = 48;  // of one ball; beyond it the ball waits for the next part
+inline constexpr int kEventsAPart = 48;  // of one ball; beyond it the body waits for the next part
 
 struct FlightRules {
     const World& world;
@@ -26,16 +25,23 @@ struct FlightRules {
     bool proofs = true;       // a search that is proved to find nothing is not made
 };
 
+/// How far a point of the body may get in a part, m.
+double travelOf(const Body& body, const FlightRules& rules);
+/// Whether a contact of the two, or of a with what does not move, is met in flight: both are balls, or one is fast. (What lies
+/// ahead of a slow one is within the margin of its contacts.)
+bool metInFlight(const Body& a, const FlightRules& rules);
+bool metInFlight(const Body& a, const Body& b, const FlightRules& rules);
+
 class Flight {
 public:
-    /// `accelerations` (m/s², rad/s²) hold from the start of the part to the ball's first impact.
+    /// `accelerations` (m/s², rad/s²) hold from the start of the part to the body's first impact.
     Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
            std::span<const Motion> accelerations, StepCounts& io_counts);
-    /// Moves every ball to the end of the part.
+    /// Moves every body to the end of the part.
     void run();
 
     int impacts = 0;
-    int held = 0;             // balls that met more than fits into one part: they wait for the next where they are
+    int held = 0;             // bodies that met more than fits into one part: they wait for the next where they are
 
 private:
     struct Path {
@@ -59,11 +65,17 @@ private:
     // Along the paths (flight.cpp).
     void findNeighbours();
     glm::dvec3 positionAt(std::size_t i, double t) const;
+    Pose poseAt(std::size_t i, double t) const;
+    Motion motionAt(std::size_t i, double t) const;
+    double fastest(std::size_t i) const;
+    GapAt shapeGap(std::size_t i, std::size_t j, double t, double margin);
     glm::dvec3 velocityAt(std::size_t i, double t) const;
     void advance(std::size_t i, double t);
     void expectStatic(std::size_t i);
+    void expectStaticOfShape(std::size_t i);
     bool noStaticAhead(std::size_t i, double duration, const ApproachLimits& limits);
     void expectPair(std::size_t i, std::size_t j);
+    void expectPairOfShapes(std::size_t i, std::size_t j);
     void expectAll(std::size_t i);
     void growReach(std::size_t i);
     // At an impact (impact.cpp).
@@ -80,6 +92,7 @@ private:
     const StaticField& field_;
     FlightRules rules_;
     StepCounts& counts_;
+    Collider collider_;
     std::vector<Path> paths_;
     std::vector<Motion> motion_;                 // scratch of the solver
     std::vector<Reach> reach_;                   // where each may get, from the start of the part

@@ -12,13 +12,8 @@ constexpr int kImpactRounds = 60;
 void Flight::addStaticContacts(int i, std::vector<Contact>& io_contacts) {
     const Body& body = bodies_[static_cast<std::size_t>(i)];
     NearStatics& near = near_[static_cast<std::size_t>(i)];
-    if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.radius)) return;
-    near.moveTo(field_, body.position, body.radius, counts_);
-    for (const Touch& touch : near.touches()) {
-        if (touch.gap > restDepth(body.radius)) continue;
-        ++counts_.static_contacts;
-        io_contacts.push_back({i, kStatic, touch.normal, touch.gap, pairing(rules_.world, body), 0, {}, 0, {}});
-    }
+    if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.inner)) return;
+    collider_.withStatics(i, body, body.pose(), restDepth(body.inner), near, io_contacts);
 }
 
 /// The contacts of one or two balls at this moment: between the two, and with what does not move.
@@ -29,17 +24,15 @@ std::vector<Contact> Flight::contactsOf(int a, int b) {
             if (i != kStatic) addStaticContacts(i, contacts);
     if (b == kStatic) return contacts;
     const Body &x = bodies_[static_cast<std::size_t>(a)], &y = bodies_[static_cast<std::size_t>(b)];
-    ++counts_.body_contacts;
-    contacts.push_back({a, b, directionApart(x, y), glm::length(x.position - y.position) - x.radius - y.radius,
-                        pairing(rules_.world, x, y), 0, {}, 0, {}});
+    // That balls meet is known; their gap is 0 but for rounding.
+    const double margin = x.isBall() && y.isBall() ? INFINITY : restDepth(std::min(x.inner, y.inner));
+    collider_.between(a, x, x.pose(), b, y, y.pose(), margin, contacts);
     return contacts;
 }
 
 double Flight::energyOf(int i) const {
     if (i == kStatic) return 0;
-    const Body& b = bodies_[static_cast<std::size_t>(i)];
-    const Motion& m = motion_[static_cast<std::size_t>(i)];
-    return 0.5 * (glm::dot(m.velocity, m.velocity) / b.inverse_mass + glm::dot(m.spin, m.spin) / b.inverse_inertia);
+    return kineticEnergy(bodies_[static_cast<std::size_t>(i)], motion_[static_cast<std::size_t>(i)]);
 }
 
 /// Newton's law of impact at every contact at once, with Coulomb's friction. No energy is made: where several contacts with
@@ -47,16 +40,14 @@ double Flight::energyOf(int i) const {
 /// now, which alone makes none, and the others are met next. Says whether an approach was fast.
 bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
     const auto load = [&](int i) {
-        if (i != kStatic) motion_[static_cast<std::size_t>(i)] = {bodies_[static_cast<std::size_t>(i)].velocity, bodies_[static_cast<std::size_t>(i)].spin};
+        if (i != kStatic) motion_[static_cast<std::size_t>(i)] = motionOf(bodies_[static_cast<std::size_t>(i)]);
     };
     load(a), load(b);
     const double before = energyOf(a) + energyOf(b);
     double fastest = rules_.bounce;
     std::size_t hardest = contacts.size();
     for (Contact& c : contacts) {
-        const Motion* other = c.b == kStatic ? nullptr : &motion_[static_cast<std::size_t>(c.b)];
-        const glm::dvec3 v = relativeVelocity(bodies_, motion_[static_cast<std::size_t>(c.a)], other, c, has(Stage::spin));
-        const double approach = -glm::dot(v, c.normal);
+        const double approach = -glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal);
         if (has(Stage::restitution) && approach > rules_.bounce) ++counts_.bounces, c.target = c.pairing.restitution * approach;
         if (approach > fastest) fastest = approach, hardest = static_cast<std::size_t>(&c - contacts.data());
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What one ball knows of the static shapes around it, so that it need not ask again: the points it was told of at the last
+// What one body knows of the static shapes around it, so that it need not ask again: the points it was told of at the last
 // place, and a room that is proved to hold none.
 #include "physics/stages.h"
 #include "physics/statics.h"
@@ -10,7 +10,7 @@ inline constexpr double kNear = 0.25;  // of the radius: static points are looke
 
 class NearStatics {
 public:
-    /// Asks the field, unless it was last asked for just this place.
+    /// Asks the field what a ball touches, unless it was last asked for just this place.
     void moveTo(const StaticField& field, glm::dvec3 position, double radius, StepCounts& io_counts);
     /// The points nearer than kNear·radius at the place of the last moveTo().
     const std::vector<Touch>& touches() const { return touches_; }

@@ -18,55 +18,18 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Contact staticContact(const World& world, std::span<const Body> bodies, int a, const Touch& touch) {
-    return {a, kStatic, touch.normal, touch.gap, pairing(world, bodies[at(a)]), 0, {}, 0, {}};
+double depthOf(std::span<const Body> bodies, const Contact& c) {
+    const double a = bodies[at(c.a)].inner;
+    return restDepth(c.b == kStatic ? a : std::min(a, bodies[at(c.b)].inner));
 }
 
-double depthOf(std::span<const Body> bodies, const Contact& c) {
-    const double a = restDepth(bodies[at(c.a)].radius);
-    return c.b == kStatic ? a : std::min(a, restDepth(bodies[at(c.b)].radius));
+bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
+    return bodies[at(c.a)].isBall() && (c.b == kStatic || bodies[at(c.b)].isBall());
 }
 
 }  // namespace
 
-/// Contacts of balls that touch now and do not approach faster than what bounces; the pairs behind the static ones.
-std::vector<Contact> PhysicsWorld::touching() {
-    std::vector<Contact> contacts;
-    if (has(Stage::static_contacts)) touchStatics(contacts);
-    if (has(Stage::broad_phase)) touchBodies(contacts);
-    return contacts;
-}
-
-void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const Body& b = bodies_[i];
-        if (!b.awake || (choice_.proofs && near_[i].roomAt(b.position, b.radius) > restDepth(b.radius))) continue;
-        near_[i].moveTo(field_, b.position, b.radius, counts_);
-        for (const Touch& touch : near_[i].touches()) {
-            if (touch.gap > restDepth(b.radius)) continue;
-            ++counts_.static_contacts;
-            io_contacts.push_back(staticContact(world_, bodies_, static_cast<int>(i), touch));
-        }
-    }
-}
-
-void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts) {
-    std::vector<Reach> reach(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) reach[i] = {bodies_[i].position, bodies_[i].radius + restDepth(bodies_[i].radius)};
-    const std::vector<std::pair<int, int>> pairs = overlappingPairs(reach);
-    ++counts_.broad_phases, counts_.pairs += pairs.size();
-    if (!has(Stage::body_contacts)) return;
-    for (const auto& [i, j] : pairs) {
-        const Body &a = bodies_[at(i)], &b = bodies_[at(j)];
-        const double gap = glm::length(a.position - b.position) - a.radius - b.radius;
-        ++counts_.body_gaps;
-        if (gap > restDepth(std::min(a.radius, b.radius))) continue;
-        ++counts_.body_contacts;
-        io_contacts.push_back({i, j, directionApart(a, b), gap, pairing(world_, a, b), 0, {}, 0, {}});
-    }
-}
-
-/// Balls that touch sleep and wake together: an island sleeps when each of its balls has been still for long enough.
+/// Bodies that touch sleep and wake together: an island sleeps when each of them has been still for long enough.
 void PhysicsWorld::wakeAndSleep(std::span<const Contact> contacts) {
     ++counts_.islands;
     std::vector<int> island(bodies_.size());
@@ -91,58 +54,71 @@ void PhysicsWorld::wakeAndSleep(std::span<const Contact> contacts) {
     }
 }
 
-/// Moves overlapping balls apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
+/// Moves overlapping bodies apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
 /// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
 void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
-    std::vector<glm::dvec3> moved(bodies_.size(), glm::dvec3{0});
+    // The displacements are solved for as velocities are: metres in place of metres a second, and no friction.
+    std::vector<Contact> overlaps(contacts.begin(), contacts.end());
     bool any = false;
-    for (int round = 0; round < knobs_.iterations; ++round) {
-        for (const Contact& c : contacts) {
-            if (!bodies_[at(c.a)].awake) continue;
-            const bool pair = c.b != kStatic;
-            const glm::dvec3 apart = moved[at(c.a)] - (pair ? moved[at(c.b)] : glm::dvec3{0});
-            const double deep = -c.gap - 0.5 * depthOf(bodies_, c), left = knobs_.push_out * deep - glm::dot(apart, c.normal);
-            if (deep <= 0 || left <= 0) continue;
-            const double ma = bodies_[at(c.a)].inverse_mass, mb = pair ? bodies_[at(c.b)].inverse_mass : 0;
-            moved[at(c.a)] += (left * ma / (ma + mb)) * c.normal;
-            if (pair) moved[at(c.b)] -= (left * mb / (ma + mb)) * c.normal;
-            any = true;
-        }
-        if (!any) return;
+    for (Contact& c : overlaps) {
+        const double deep = -c.gap - 0.5 * depthOf(bodies_, c);
+        any = any || deep > 0;
+        c.target = deep > 0 ? knobs_.push_out * deep : deep;
     }
+    if (!any) return;
+    std::vector<Motion> moved(bodies_.size());
+    solve(bodies_, overlaps, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const double length = glm::length(moved[i]), most = std::min(kPushOutSpeed * h, 0.25 * bodies_[i].radius);
-        if (length > 0) bodies_[i].position += moved[i] * (length > most ? most / length : 1.0);
+        Body& b = bodies_[i];
+        const double length = glm::length(moved[i].velocity) + (b.isBall() ? 0 : b.radius * glm::length(moved[i].spin));
+        if (!b.awake || !(length > 0)) continue;
+        const double most = std::min(kPushOutSpeed * h, 0.25 * b.inner), share = length > most ? most / length : 1.0;
+        b.position += share * moved[i].velocity;
+        if (!b.isBall()) b.orientation = turned(b.orientation, moved[i].spin, share);
     }
 }
 
-/// Ends the approaches too slow to bounce, all at once and without restitution.
-void PhysicsWorld::stopSlowApproaches(std::span<Contact> contacts) {
-    std::vector<Motion> motion(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) motion[i] = {bodies_[i].velocity, bodies_[i].spin};
+/// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
+/// within the part, which part again with the restitution.
+void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
     bool any = false;
-    for (const Contact& c : contacts) {
-        const glm::dvec3 v = relativeVelocity(bodies_, motion[at(c.a)], c.b == kStatic ? nullptr : &motion[at(c.b)], c, has(Stage::spin));
-        any = any || glm::dot(v, c.normal) < -1e-12;
+    const FlightRules rules = rulesFor(h);
+    for (Contact& c : contacts) {
+        const double approach = -glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal);
+        c.target = 0;
+        if (!flown(c, rules)) {
+            const bool bounces = has(Stage::restitution) && c.pairing.restitution > 0 && approach > rules.bounce && c.gap < approach * h;
+            if (bounces) ++counts_.bounces;
+            c.target = bounces ? c.pairing.restitution * approach : -std::max(c.gap, 0.0) / h;
+        }
+        any = any || approach > 1e-12 - c.target;
     }
     if (!any) return;
+    std::vector<Motion> motion(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) motion[i] = motionOf(bodies_[i]);
     solve(bodies_, contacts, motion, 4 * knobs_.iterations, stages_, counts_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = motion[i].velocity, bodies_[i].spin = motion[i].spin;
 }
 
-/// The same contacts with the normals they will have half-way through the part; those that will have parted are left out.
+/// The same contacts with the normals that balls will have half-way through the part; those that will have parted are left out.
 std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) {
     std::vector<Contact> midway;
     std::vector<Touch> touches;
     int of = -1;
     for (const Contact& c : contacts) {
+        Contact m = c;
+        m.push = 0, m.drag = {}, m.target = 0, m.slip = {};
+        if (!betweenBalls(bodies_, c)) {
+            midway.push_back(m);
+            continue;
+        }
         const Body& a = bodies_[at(c.a)];
         const glm::dvec3 x = a.position + (0.5 * h) * a.velocity;
-        Contact m{c.a, c.b, c.normal, c.gap, c.pairing, 0, {}, 0, {}};
         if (c.b != kStatic) {
             const Body& b = bodies_[at(c.b)];
             const glm::dvec3 apart = x - b.position - (0.5 * h) * b.velocity;
             if (const double d = glm::length(apart); d > 0.5 * (a.radius + b.radius)) m.normal = apart / d;
+            m.arm_a = -a.radius * m.normal, m.arm_b = b.radius * m.normal;
             midway.push_back(m);
             continue;
         }
@@ -154,22 +130,23 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
         for (const Touch& t : touches)
             if (!best || glm::dot(t.normal, c.normal) > glm::dot(best->normal, c.normal)) best = &t;
         if (!best || glm::dot(best->normal, c.normal) < 0.7 || best->gap > restDepth(a.radius)) continue;
-        m.normal = best->normal;
+        m.normal = best->normal, m.arm_a = -a.radius * m.normal;
         midway.push_back(m);
     }
     return midway;
 }
 
-/// What the velocities after the part shall be: in mean no approach; no slip, unless it would turn round on the way: then
-/// the mean slip is none, so that friction never does work on the ball.
+/// What the velocities after the part shall be: in mean no approach beyond the gap there is. For a ball's friction no slip, unless
+/// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
 void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
     const glm::dvec3 fall{0, -world_.gravity * h, 0};
     for (Contact& c : contacts) {
-        const Body& a = bodies_[at(c.a)];
-        const Motion before{a.velocity, a.spin};
-        const Motion other = c.b == kStatic ? Motion{} : Motion{bodies_[at(c.b)].velocity, bodies_[at(c.b)].spin};
-        const glm::dvec3 v = relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c, has(Stage::spin));
+        const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
+        if (!betweenBalls(bodies_, c)) {
+            c.target = -2 * std::max(c.gap, 0.0) / h - std::max(away, 0.0);
+            continue;
+        }
         c.target = -away;
         if (!has(Stage::friction)) continue;
         const glm::dvec3 slip = v - away * c.normal;
@@ -178,16 +155,46 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
     }
 }
 
+/// Whether an impulse kept from the last part is this contact's: found from the same point, or at about the same place. Of a ball
+/// the normal alone tells.
+bool PhysicsWorld::isOf(const Kept& kept, const Contact& c) const {
+    if (bodies_[at(c.a)].isBall()) return glm::dot(kept.normal, c.normal) >= 0.98;
+    const bool same_place = glm::length(kept.arm - c.arm_a) <= 0.05 * bodies_[at(c.a)].radius;
+    return (kept.feature == c.feature || same_place) && glm::dot(kept.normal, c.normal) >= 0.9;
+}
+
 void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
-    for (Contact& c : contacts) {
-        const std::uint32_t a = bodies_[at(c.a)].object.value, b = c.b == kStatic ? 0 : bodies_[at(c.b)].object.value;
-        auto k = std::lower_bound(kept_.begin(), kept_.end(), std::pair{a, b},
-                                  [](const Kept& x, const std::pair<std::uint32_t, std::uint32_t>& y) { return std::pair{x.a, x.b} < y; });
-        for (; k != kept_.end() && k->a == a && k->b == b; ++k) {
-            if (glm::dot(k->normal, c.normal) < 0.98) continue;
-            c.push = k->push;
-            if (c.pairing.friction != 0) c.drag = k->drag - glm::dot(k->drag, c.normal) * c.normal;
-            break;
+    std::vector<char> taken(kept_.size(), 0);
+    const auto keptOf = [&](const Contact& c) {
+        const std::pair pair{bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value};
+        const auto [begin, end] = std::ranges::equal_range(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
+        return std::pair{static_cast<std::size_t>(begin - kept_.begin()), static_cast<std::size_t>(end - kept_.begin())};
+    };
+    const auto take = [&](Contact& io_c, std::size_t k) {
+        taken[k] = 1, io_c.push += kept_[k].push;
+        if (io_c.pairing.friction != 0) io_c.drag += kept_[k].drag - glm::dot(kept_[k].drag, io_c.normal) * io_c.normal;
+    };
+    for (const bool same_feature : {true, false}) {
+        for (Contact& c : contacts) {
+            if (c.push > 0) continue;
+            for (auto [k, end] = keptOf(c); k < end; ++k) {
+                if (taken[k] || (same_feature && kept_[k].feature != c.feature) || !isOf(kept_[k], c)) continue;
+                take(c, k);
+                break;
+            }
+        }
+    }
+    // What two shapes' lost points carried, the nearest of those they have now carry.
+    for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
+        for (end = i + 1; end < contacts.size() && contacts[end].a == contacts[i].a && contacts[end].b == contacts[i].b;) ++end;
+        if (bodies_[at(contacts[i].a)].isBall()) continue;
+        for (auto [k, last] = keptOf(contacts[i]); k < last; ++k) {
+            if (taken[k]) continue;
+            const auto apart = [&](const Contact& c) {
+                return glm::dot(kept_[k].normal, c.normal) < 0.9 ? INFINITY : glm::length(c.arm_a - kept_[k].arm);
+            };
+            Contact& nearest = *std::ranges::min_element(contacts.subspan(i, end - i), {}, apart);
+            if (apart(nearest) < INFINITY) take(nearest, k);
         }
     }
 }
@@ -196,11 +203,12 @@ void PhysicsWorld::keep(std::span<const Contact> contacts) {
     kept_.clear();
     for (const Contact& c : contacts)
         if (c.push > 0)
-            kept_.push_back({bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.normal, c.push, c.drag});
+            kept_.push_back({bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
+                             c.arm_a, c.push, c.drag});
     std::stable_sort(kept_.begin(), kept_.end(), [](const Kept& x, const Kept& y) { return std::pair{x.a, x.b} < std::pair{y.a, y.b}; });
 }
 
-/// Gravity's acceleration of every ball.
+/// Gravity's acceleration of every body.
 std::vector<Motion> PhysicsWorld::falling() const {
     std::vector<Motion> accelerations(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -208,7 +216,7 @@ std::vector<Motion> PhysicsWorld::falling() const {
     return accelerations;
 }
 
-/// Adds what the contacts a ball rests on do to it through the part. Of a ball that nothing carries the acceleration stays
+/// Adds what the contacts a body rests on do to it through the part. Of a body that nothing carries the acceleration stays
 /// gravity itself: the quotient would round it.
 void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations) {
     std::vector<Contact> midway = atMidway(contacts, h);
@@ -232,14 +240,15 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
     }
 }
 
-/// Counts for how long each ball that touches something has been still: slower than `sleep_speed`; without gravity only rest
+/// Counts for how long each body that touches something has been still: slower than `sleep_speed`; without gravity only rest
 /// itself is.
 void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
     std::vector<char> touches(bodies_.size(), world_.gravity == 0), deep(bodies_.size(), 0);
     for (const Contact& c : contacts) {
-        const bool overlaps = c.gap < -2 * depthOf(bodies_, c);
-        touches[at(c.a)] = 1, deep[at(c.a)] |= overlaps;
-        if (c.b != kStatic) touches[at(c.b)] = 1, deep[at(c.b)] |= overlaps;
+        const double depth = depthOf(bodies_, c);
+        const bool touching = c.gap <= depth, overlaps = c.gap < -2 * depth;
+        touches[at(c.a)] |= touching, deep[at(c.a)] |= overlaps;
+        if (c.b != kStatic) touches[at(c.b)] |= touching, deep[at(c.b)] |= overlaps;
     }
     const double limit = std::min(knobs_.sleep_speed, knobs_.sleep_speed / kWeakFall * (std::fabs(world_.gravity) * h));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -1,71 +1,22 @@
 #include "physics/statics.h"
 
-#include "core/sdf/grid.h"
-#include "physics/closest.h"
-
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 
 namespace mb {
-namespace {
-
-constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
-constexpr double kTooNear = 1e-9;       // of the radius: a point so near to the centre has no direction
-constexpr std::size_t kMany = 32;       // solids, or leaves of one: fewer are asked one after the other
-
-/// The grid of a tree, made from that of what stood there before, if anything did. (Copies of a world share theirs.)
-std::shared_ptr<const Grid> gridOf(const Tree& tree, Grid::Exact exact, const Grid* before) {
-    const auto grid = before ? std::make_shared<Grid>(*before) : std::make_shared<Grid>(exact);
-    grid->follow(tree);
-    return grid;
-}
-
-/// Whether the surface lies elsewhere than on its leaves' own: the tree wraps, warps or morphs.
-bool movesSurfaces(const Tree& tree) {
-    return std::ranges::any_of(tree.branches, [](const Branch& b) { return b.op->kind == Operator::Kind::wrap || !b.op->blends; });
-}
-
-/// 1 for a leaf that adds, −1 for one that is taken away: walks the program with the leaves each value is made of. Where an
-/// operator moves the surface off its leaves' own, all are 0.
-std::vector<signed char> sidesOf(const Tree& tree) {
-    struct Range { std::size_t begin, end; };
-    std::vector<signed char> side(tree.leaves.size(), 0);
-    if (movesSurfaces(tree)) return side;
-    std::vector<Range> stack;
-    for (const Instruction& step : tree.program) {  // of leaves, folds and joins
-        if (step.kind == Instruction::Kind::leaf) {
-            side[step.index] = 1;
-            stack.push_back({step.index, step.index + 1});
-            continue;
-        }
-        const Range second = stack.back();
-        stack.pop_back();
-        if (step.kind == Instruction::Kind::fold && tree.branches[step.index].op->first_only)
-            for (std::size_t i = second.begin; i < second.end; ++i) side[i] = static_cast<signed char>(-side[i]);
-        stack.back().end = second.end;
-    }
-    return side;
-}
-
-}  // namespace
 
 StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_t)>& wanted, std::vector<std::string>& io_notes,
-                         const StaticField* before) {
+                         const StaticField* before, bool with_points) {
     std::vector<std::size_t> objects;  // that the solids are
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) {
         if (scene.objects[i].hidden || !wanted(i)) continue;
-        Solid solid{makeTreeOf(scene, i), {}, {}, false, {}};
-        if (!solid.tree.fault.empty()) io_notes.push_back(fmt::format("no ball meets it: {}", solid.tree.fault));
-        if (solid.tree.program.empty()) continue;
-        solid.box = bounds(solid.tree);
-        solid.side = sidesOf(solid.tree);
-        solid.blended = movesSurfaces(solid.tree) || std::ranges::any_of(solid.tree.branches, [](const Branch& b) { return b.blend > 0; });
-        const Grid* grid_before = before && solids_.size() < before->solids_.size() ? before->solids_[solids_.size()].grid.get() : nullptr;
-        if (solid.tree.leaves.size() > kMany) solid.grid = gridOf(solid.tree, Grid::Exact::everywhere, grid_before);
+        Tree tree = makeTreeOf(scene, i);
+        if (!tree.fault.empty()) io_notes.push_back(fmt::format("no body meets it: {}", tree.fault));
+        if (tree.program.empty()) continue;
         objects.push_back(i);
-        solids_.push_back(std::move(solid));
+        solids_.push_back(makeSolid(std::move(tree), with_points, before && solids_.size() < before->solids_.size() ? &before->solids_[solids_.size()] : nullptr));
     }
     if (solids_.size() <= kMany) return;
     const Tree all = makeTree(scene, [&](std::size_t i) { return std::ranges::binary_search(objects, i); });
@@ -87,181 +38,27 @@ std::vector<std::size_t> StaticField::solidsNear(glm::dvec3 centre, double reach
     return near;
 }
 
-/// The search of one solid's points around one ball.
-struct StaticField::Search {
-    const Solid& solid;
-    glm::dvec3 c;
-    double radius, margin;
-    std::vector<Touch>& found;
-    std::uint64_t& evaluations;
-
-    double field(glm::dvec3 p) const { return ++evaluations, solid.grid ? solid.grid->distance(p) : distance<double>(solid.tree, {p.x, p.y, p.z}); }
-
-    /// A shape less itself has a surface of no thickness. Behind a face there is solid; behind a sharp corner, where the
-    /// line from the ball may pass it by, there is some towards the leaf's middle.
-    bool solidBehind(glm::dvec3 point, glm::dvec3 normal, std::span<const std::size_t> leaves) const {
-        const double reach = 1e-4 * radius;
-        if (field(point - reach * normal) < 0) return true;
-        if (leaves.empty()) return false;
-        const glm::dvec3 inwards = solid.tree.leaves[leaves[0]].position - point;
-        const double l = glm::length(inwards);
-        return l > 0 && field(point + (reach / l) * inwards) < 0;
-    }
-
-    /// Adds the local minimum of the distance on these leaves (or on the whole tree, where there are none) if it lies on
-    /// the solid's surface and faces the ball.
-    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr, bool anywhere = false) const {
-        std::array<Surface, 3> surfaces{};
-        for (std::size_t i = 0; i < leaves.size(); ++i) surfaces[i].leaf = &solid.tree.leaves[leaves[i]];
-        if (leaves.empty()) surfaces[0].tree = &solid.tree;
-        const std::span<const Surface> all(surfaces.data(), std::max<std::size_t>(leaves.size(), 1));
-        const auto closest = anywhere ? pointOn(all, c, start, radius, evaluations) : closestPoint(all, c, start, radius, evaluations, parallel);
-        if (!closest) return false;
-
-        const glm::dvec3 away = c - closest->point;
-        const double d = glm::length(away);
-        if (!(d > kTooNear * radius) || d > radius + margin) return false;
-        const double on = 1e-8 * (1 + radius + glm::length(c));
-        if (std::fabs(field(closest->point)) > on) return false;
-        // On an edge each surface must push outwards; on a face there must be a solid behind the point.
-        if (leaves.size() > 1) {
-            for (std::size_t i = 0; i < leaves.size(); ++i)
-                if (closest->shares[i] * solid.side[leaves[i]] < -1e-9 * d) return false;
-        } else if (!solidBehind(closest->point, away / d, leaves)) {
-            return false;
-        }
-        found.push_back({closest->point, away / d, d - radius});
-        return true;
-    }
-
-    /// The leaves whose surface may be within reach, nearest first.
-    std::vector<std::size_t> nearLeaves() const {
-        std::vector<std::pair<double, std::size_t>> near;
-        const auto look = [&](std::size_t i) {
-            if (solid.side[i] == 0) return;
-            const Leaf& leaf = solid.tree.leaves[i];
-            const glm::dvec3 q = (c - leaf.position) * leaf.rotation;
-            const double f = std::fabs(leaf.primitive->distance<double>({q.x, q.y, q.z}, leaf.numbers));
-            if (f <= radius + margin) near.push_back({f, i});
-        };
-        if (solid.grid)
-            for (const std::uint32_t i : solid.grid->leavesNear(c, radius + margin)) look(i);
-        else
-            for (std::size_t i = 0; i < solid.tree.leaves.size(); ++i) look(i);
-        ++evaluations;
-        std::sort(near.begin(), near.end());  // no two are equal: the indices differ
-        if (near.size() > kNearLeaves) near.resize(kNearLeaves);
-        std::vector<std::size_t> leaves;
-        for (const auto& [f, i] : near) leaves.push_back(i);
-        return leaves;
-    }
-
-    /// The nearest point of two surfaces' common curve, and three more around the ball: over a round hole it rests on the
-    /// rim on all sides, though one is nearest. (Elsewhere these lie below the first one's tangent plane and are dropped.)
-    void addEdge(std::size_t a, std::size_t b) const {
-        const std::array edge{a, b};
-        const glm::dvec3 axis = slope(solid.tree.leaves[a], c).gradient;
-        glm::dvec3 side{0}, down{0};
-        bool parallel = false;
-        if (add(edge, c, &parallel)) {
-            const glm::dvec3 to = found.back().point - c;
-            down = glm::dot(to, axis) * axis, side = to - down;
-        } else if (parallel) {
-            // Straight above its middle the surfaces' gradients are parallel, and no side is the nearest.
-            side = 0.5 * radius * glm::cross(axis, std::fabs(axis.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0});
-            add(edge, c + side, nullptr, true);
-        }
-        if (!(glm::dot(side, side) > 1e-12 * radius * radius)) return;
-        const glm::dvec3 across = glm::cross(axis, side);
-        for (const glm::dvec3& way : {across, -side, -across}) add(edge, c + down + way, nullptr, true);
-    }
-
-    void facesEdgesCorners() const {
-        const std::vector<std::size_t> near = nearLeaves();
-        for (std::size_t a = 0; a < near.size(); ++a) {
-            add(std::array{near[a]}, c);
-            for (std::size_t b = a + 1; b < near.size(); ++b) {
-                addEdge(near[a], near[b]);
-                for (std::size_t d = b + 1; d < near.size(); ++d) add(std::array{near[a], near[b], near[d]}, c);
-            }
-        }
-        if (solid.blended) add({}, c);
-    }
-
-    /// From a point pushed off the ones found: the leaf that is nearest there, and its own nearest point to the ball.
-    bool probe(glm::dvec3 direction) const {
-        const glm::dvec3 from = c + (0.5 * radius) * direction;
-        const Slope s = slope(solid.tree, from);
-        const int leaf = nearest<double>(solid.tree, {from.x, from.y, from.z}).leaf;
-        evaluations += 2;
-        if (s.distance <= 0 || leaf < 0) return false;
-        const glm::dvec3 start = from - s.distance * s.gradient;
-        const bool smooth = solid.blended && add({}, start);
-        return add(std::array{static_cast<std::size_t>(leaf)}, start) || smooth;
-    }
-
-    /// The other walls of a corner that one leaf makes alone, as a box taken away does. Where nothing else is near, half
-    /// a radius away from the first point is half a radius further from the solid, and there is nothing to look for.
-    void otherWalls(double f) const {
-        if (found.empty()) return;
-        const glm::dvec3 n = found.front().normal;
-        if (field(c + (0.5 * radius) * n) >= f + 0.5 * radius * (1 - 1e-9)) return;
-        const std::size_t before = found.size();
-        probe(n);
-        if (found.size() == before) return;
-        const glm::dvec3 m = found.back().normal, sum = n + m, cross = glm::cross(n, m);
-        if (const double l = glm::length(sum); l > 1e-3) probe(sum / l);
-        if (const double l = glm::length(cross); l > 1e-3) probe(cross / l), probe(-cross / l);
-    }
-};
-
 double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out, double* out_room) const {
     out.clear();
     // What the grid does not name has no surface within reach.
     double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY, room = free;
-    std::vector<Touch> found;
     for (const std::size_t i : solidsNear(centre, radius + margin)) {
-        const Solid& solid = solids_[i];
-        const double outside = distanceTo(solid.box, centre) - radius;
-        if (outside > margin) {
-            free = std::min(free, outside), room = std::min(room, outside);
-            continue;
-        }
-        found.clear();
-        const Search search{solid, centre, radius, margin, found, evaluations_};
-        const double f = search.field(centre);
-        room = std::min(room, f - radius);
-        if (f - radius > margin) {
-            free = std::min(free, f - radius);
-            continue;
-        }
-        if (f <= 2 * kTooNear * radius) {
-            // The centre is inside, or on the surface: out along the gradient, and upwards where it is 0.
-            const glm::dvec3 g = slope(solid.tree, centre).gradient;
-            const double l = glm::length(g);
-            const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};
-            found.push_back({centre - f * n, n, f - radius});
-        } else {
-            search.facesEdgesCorners();
-            search.otherWalls(f);
-            if (found.empty()) free = std::min(free, std::max(f - radius, margin));
-        }
-        out.insert(out.end(), found.begin(), found.end());
+        const FreeGap gap = addTouches(solids_[i], {centre, radius}, margin, out, evaluations_);
+        free = std::min(free, gap.free), room = std::min(room, gap.room);
     }
-
     if (out_room) *out_room = room;
-
-    // Keep what no nearer point's tangent plane hides.
-    std::stable_sort(out.begin(), out.end(), [](const Touch& a, const Touch& b) { return a.gap < b.gap; });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        bool hidden = false;
-        for (std::size_t k = 0; k < kept && !hidden; ++k)
-            hidden = glm::dot(out[i].point - out[k].point, out[k].normal) <= 1e-7 * radius;
-        if (!hidden) out[kept++] = out[i];
-    }
-    out.resize(kept);
+    keepUnhidden(out, radius);
     return out.empty() ? free : std::min(free, out.front().gap);
+}
+
+double StaticField::room(glm::dvec3 centre, double radius) const {
+    double room = grid_ ? grid_->distance(centre) - radius : INFINITY;
+    for (const std::size_t i : solidsNear(centre, radius)) {
+        const double outside = distanceTo(solids_[i].box, centre) - radius;
+        if (outside > 0) room = std::min(room, outside);
+        else ++evaluations_, room = std::min(room, solids_[i].at(centre) - radius);
+    }
+    return room;
 }
 
 }  // namespace mb

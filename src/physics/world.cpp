@@ -45,7 +45,7 @@ void PhysicsWorld::part(double h) {
         return;
     }
     tame();
-    std::vector<Contact> contacts = touching();
+    std::vector<Contact> contacts = touching(h);
     if (has(Stage::sleeping)) wakeAndSleep(contacts);
     const std::vector<Motion> accelerations = rest(contacts, h);
     if (has(Stage::flight)) fly(accelerations, h);
@@ -64,32 +64,33 @@ std::vector<Motion> PhysicsWorld::rest(std::vector<Contact>& io_contacts, double
         kept_.clear(), contacts_ = 0;
         return accelerations;
     }
-    stopSlowApproaches(io_contacts);
+    stopApproaches(io_contacts, h);
     carry(io_contacts, h, accelerations);
     return accelerations;
 }
 
-/// Fast approaches are impacts: the flight's business. Sleepers need nothing.
+bool PhysicsWorld::flown(const Contact& c, const FlightRules& rules) const {
+    const Body& a = bodies_[static_cast<std::size_t>(c.a)];
+    return c.b == kStatic ? metInFlight(a, rules) : metInFlight(a, bodies_[static_cast<std::size_t>(c.b)], rules);
+}
+
+/// Fast approaches that are met in flight are the flight's business. Sleepers need nothing.
 void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) const {
+    const FlightRules rules = rulesFor(h);
     std::erase_if(io_contacts, [&](const Contact& c) {
-        const Body& a = bodies_[static_cast<std::size_t>(c.a)];
-        const Motion before{a.velocity, a.spin};
-        if (!a.awake) return true;
-        Motion other;
-        if (c.b != kStatic) other = {bodies_[static_cast<std::size_t>(c.b)].velocity, bodies_[static_cast<std::size_t>(c.b)].spin};
-        const glm::dvec3 v = relativeVelocity(bodies_, before, c.b == kStatic ? nullptr : &other, c, has(Stage::spin));
-        return glm::dot(v, c.normal) < -bounceSpeed(h);
+        if (!bodies_[static_cast<std::size_t>(c.a)].awake) return true;
+        return flown(c, rules) && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
     });
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
-    Flight flight(bodies_, near_, field_, {world_, h, bounceSpeed(h), stages_, choice_.proofs}, accelerations, counts_);
+    Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, counts_);
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += static_cast<std::uint64_t>(flight.held);
 }
 
-/// Takes out balls whose state is no number and slows down those beyond the top speed, before either meets another.
+/// Takes out bodies whose state is no number and slows down those beyond the top speed, before either meets another.
 void PhysicsWorld::tame() {
     const auto broken = [](const Body& b) {
         return !finite(b.position) || !finite(b.velocity) || !finite(b.spin) || glm::dot(b.position, b.position) > 1e20;
@@ -112,6 +113,7 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
             ++removed_;
             gone_.push_back(bodies_[i].object);
             std::erase_if(kept_, [&](const Kept& k) { return k.a == bodies_[i].object.value || k.b == bodies_[i].object.value; });
+            memory_.forget(bodies_[i].object.value);
             continue;
         }
         if (left != i) bodies_[left] = std::move(bodies_[i]), near_[left] = std::move(near_[i]);
@@ -162,7 +164,7 @@ int PhysicsWorld::awake() const {
 Energy PhysicsWorld::energy() const {
     Energy e;
     for (const Body& b : bodies_) {
-        e.kinetic += 0.5 * (glm::dot(b.velocity, b.velocity) / b.inverse_mass + glm::dot(b.spin, b.spin) / b.inverse_inertia);
+        e.kinetic += kineticEnergy(b, motionOf(b));
         e.potential += world_.gravity * b.position.y / b.inverse_mass;
     }
     return e;
@@ -176,23 +178,27 @@ glm::dvec3 PhysicsWorld::momentum() const {
 
 glm::dvec3 PhysicsWorld::angularMomentum() const {
     glm::dvec3 l{0};
-    for (const Body& b : bodies_) l += glm::cross(b.position, b.velocity) / b.inverse_mass + b.spin / b.inverse_inertia;
+    for (const Body& b : bodies_) l += glm::cross(b.position, b.velocity) / b.inverse_mass + mb::angularMomentum(b, b.spin);
     return l;
 }
 
 double PhysicsWorld::maxPenetration() const {
-    double deepest = 0;
-    std::vector<Touch> touches;
+    std::vector<Contact> contacts;
     std::vector<Reach> reach;
-    for (const Body& b : bodies_) {
+    StepCounts unused;
+    const Collider collider(world_, field_, unused);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body& b = bodies_[i];
         reach.push_back({b.position, b.radius});
-        field_.touches(b.position, b.radius, 0, touches);
-        if (!touches.empty()) deepest = std::max(deepest, -touches[0].gap);
+        NearStatics near;
+        collider.withStatics(static_cast<int>(i), b, b.pose(), 0, near, contacts);
     }
     for (const auto& [i, j] : overlappingPairs(reach)) {
         const Body &a = bodies_[static_cast<std::size_t>(i)], &b = bodies_[static_cast<std::size_t>(j)];
-        deepest = std::max(deepest, a.radius + b.radius - glm::length(a.position - b.position));
+        collider.between(i, a, a.pose(), j, b, b.pose(), 0, contacts);
     }
+    double deepest = 0;
+    for (const Contact& c : contacts) deepest = std::max(deepest, -c.gap);
     return deepest;
 }
 
@@ -204,13 +210,15 @@ std::uint64_t PhysicsWorld::stateHash() const {
     for (const Body& b : bodies_) {
         hash.add(std::uint64_t{b.object.value});
         hash.add(b.position), hash.add(b.velocity), hash.add(b.spin), hash.add(b.orientation);
-        hash.add(b.radius), hash.add(b.inverse_mass), hash.add(b.inverse_inertia);
+        hash.add(b.radius), hash.add(b.inverse_mass);
+        for (int i = 0; i < 3; ++i) hash.add(b.inverse_inertia[i]);
         hash.add(static_cast<std::uint64_t>(b.awake)), hash.add(static_cast<std::uint64_t>(b.still));
     }
     for (const Kept& k : kept_) {
         hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
-        hash.add(k.normal), hash.add(k.push), hash.add(k.drag);
+        hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag);
     }
+    memory_.addTo(hash);
     return hash.value();
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-// The physics of a scene: balls under gravity, against one another and against every shape that does not move.
+// The physics of a scene: bodies of any shape under gravity, against one another and against every shape that does not move.
 //
-// A step is made of equal parts. In each: (1) the contacts of the balls that touch are found; (2) overlaps are pushed
+// A step is made of equal parts. In each: (1) the contacts of the bodies that touch are found; (2) overlaps are pushed
 // apart, without velocity; (3) slow approaches end and resting contacts get the impulses that carry them through the part
-// (rest.cpp); (4) every ball flies to the part's end, from impact to impact (flight.h); (5) what lies still falls asleep.
+// (rest.cpp); (4) every body flies to the part's end, from impact to impact (flight.h); (5) what lies still falls asleep.
 // What it does is the same on every machine and compiler, to the bit: see stateHash().
 //
 // Each of these is there if a row of the table of effects calls for it (stages.h): a part is composed of the stages that the
@@ -71,28 +71,39 @@ public:
 private:
     struct Kept {                                              // an impulse to begin the next part with
         std::uint32_t a = 0, b = 0;                            // ids of objects; 0: static
-        glm::dvec3 normal{0};
+        std::uint64_t feature = 0;
+        glm::dvec3 normal{0}, arm{0};
         double push = 0;
         glm::dvec3 drag{0};
     };
 
-    void addBody(const Scene& scene, std::size_t object);
+    struct Made {                                              // a shape that a body was made of
+        Scene shape;
+        double mass = 0, density = 0;
+        std::size_t body = 0;
+    };
+    void addBody(const Scene& scene, std::size_t object, std::vector<Made>& io_made);
     bool has(Stage s) const { return stages_.has(s); }
     void compose();
+    void countShapes();
     void part(double h);
-    std::vector<Contact> touching();
-    void touchStatics(std::vector<Contact>& io_contacts);
-    void touchBodies(std::vector<Contact>& io_contacts);
+    FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
+    bool flown(const Contact& c, const FlightRules& rules) const;
+    bool allBalls() const { return shapes_ == 0; }
+    std::vector<Contact> touching(double h);
+    void touchStatics(std::vector<Contact>& io_contacts, double h);
+    void touchBodies(std::vector<Contact>& io_contacts, double h);
     std::vector<Motion> rest(std::vector<Contact>& io_contacts, double h);
     void dropImpacts(std::vector<Contact>& io_contacts, double h) const;
     std::vector<Motion> falling() const;
     void fly(std::span<const Motion> accelerations, double h);
     void wakeAndSleep(std::span<const Contact> contacts);
     void pushApart(std::span<const Contact> contacts, double h);
-    void stopSlowApproaches(std::span<Contact> contacts);
+    void stopApproaches(std::span<Contact> contacts, double h);
     void carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
+    bool isOf(const Kept& kept, const Contact& c) const;
     void takeKept(std::span<Contact> contacts) const;
     void keep(std::span<const Contact> contacts);
     void countStill(std::span<const Contact> contacts, double h);
@@ -108,13 +119,14 @@ private:
     std::vector<Body> bodies_;
     std::vector<NearStatics> near_;                            // of each body; remembered, not state
     std::vector<Kept> kept_;
+    ManifoldMemory memory_;
     std::vector<std::string> notes_;
     std::vector<ObjectId> gone_;
     StageChoice choice_;
     Stages stages_;
     StepCounts counts_;
     std::uint64_t steps_ = 0, impacts_ = 0, held_ = 0, before_ = 0;
-    int removed_ = 0, contacts_ = 0;
+    int removed_ = 0, contacts_ = 0, shapes_ = 0;              // shapes: bodies that are no balls
 };
 
 }  // namespace mb

@@ -142,7 +142,7 @@ TEST_CASE("static shapes that cannot be evaluated are named, not met") {
     ball(s, {0, 2, 0}, 0.1);
     PhysicsWorld w(s);
     REQUIRE(w.notes().size() == 1);
-    CHECK(w.notes()[0].find("no ball meets it: object 'hull'") == 0);
+    CHECK(w.notes()[0].find("no body meets it: object 'hull'") == 0);
     run(w, 0.5);
     CHECK(w.bodies()[0].position.y < 1);
 }

@@ -28,7 +28,7 @@ inline Object& floor(Scene& scene) { return add(scene, "plane", {}, {0, 1, 0, 0}
 /// dt, restitution, friction; gravity as on earth.
 inline Scene scene(double dt, double restitution, double friction, double gravity = kG) {
     Scene s;
-    s.physics.dt = dt;
+    s.physics.dt = dt, s.physics.substeps = 1, s.physics.iterations = 10;  // a step is one part
     s.world.restitution = restitution, s.world.friction = friction, s.world.gravity = gravity;
     return s;
 }

@@ -84,12 +84,16 @@ void ofTouch(const Effect&, const Scene& scene, const Tree&, Calls& out) {
 }
 void ofFriction(const Effect&, const Scene& scene, const Tree&, Calls& out) { addShared(scene, kFriction, out); }
 void ofRestitution(const Effect&, const Scene& scene, const Tree&, Calls& out) { addShared(scene, kRestitution, out); }
-/// A body turns from the start, or friction makes it turn.
+/// A body turns from the start, or friction makes it turn; or it is no ball, and any contact does.
 void ofSpin(const Effect&, const Scene& scene, const Tree&, Calls& out) {
     eachPart(scene, [&](std::size_t i, const Object& o) {
         if (o.isBody() && o.spin != glm::dvec3{0} && !out.full())
             out.add({Record::object, i, fmt::format("spin:{},{},{}", o.spin.x, o.spin.y, o.spin.z)});
     });
+    if (castOf(scene).canTouch())
+        eachPart(scene, [&](std::size_t i, const Object& o) {
+            if (o.isBody() && o.type && o.type->name != "sphere" && !out.full()) out.add({Record::object, i, fmt::format("type:{}", o.type->name)});
+        });
     addShared(scene, kFriction, out);
 }
 /// What touches nothing falls for ever; without gravity it may rest in free space.

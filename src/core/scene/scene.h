@@ -81,8 +81,8 @@ struct RenderKnobs {
 
 struct PhysicsKnobs {
     double dt = 1.0 / 120;       // s
-    int substeps = 1;
-    int iterations = 10;
+    int substeps = 2;
+    int iterations = 8;
     double push_out = 0.2;       // the share of an overlap undone in a part; less leaves bodies in one another for longer
     double sleep_speed = 0.03;   // m/s, of a surface: slower than this for half a second, and touching, a body sleeps; 0: never
 };

@@ -158,13 +158,11 @@ void Reader::finishObjects() {
 }
 
 namespace {
-/// What becomes of a body that is no ball.
-std::string_view howItFalls(const Scene& scene, std::size_t body) {
-    constexpr std::string_view kAsBall = "falls as its bounding sphere in this version";
-    const Box box = bounds(makeTree(scene, [body](std::size_t i) { return i == body; }));
+bool isInfinite(const Scene& scene, std::size_t object) {
+    const Box box = bounds(makeTree(scene, [object](std::size_t i) { return i == object; }));
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (box.hi[axis] - box.lo[axis] == HUGE_VAL) return "has a mass but is infinite, and does not move";
-    return kAsBall;
+        if (box.hi[axis] - box.lo[axis] == HUGE_VAL) return true;
+    return false;
 }
 }  // namespace
 
@@ -178,8 +176,8 @@ void Reader::warn() {
         const Object& o = scene_.objects[i];
         if (i >= object_places_.size()) return;
         const auto [line, column] = object_places_[i];
-        if (o.isBody() && o.type->name != "sphere")
-            warnings_.push_back({line, column, fmt::format("{} {}", shown(label(scene_, i)), howItFalls(scene_, i))});
+        if (o.isBody() && o.type->name != "sphere" && isInfinite(scene_, i))
+            warnings_.push_back({line, column, fmt::format("{} has a mass but is infinite, and does not move", shown(label(scene_, i)))});
     }
     if (warnings_.size() > kMaxFaults) warnings_.resize(kMaxFaults);
 }

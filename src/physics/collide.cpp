@@ -1,0 +1,93 @@
+#include "physics/collide.h"
+
+#include <glm/geometric.hpp>
+
+namespace mb {
+namespace {
+constexpr double kFollowed = 0.01;  // of half the thinner thickness: how far shapes may move against one another and keep their points
+}
+
+void Collider::withStatics(int i, const Body& body, const Pose& pose, double margin, NearStatics& io_near, std::vector<Contact>& io_contacts) const {
+    const std::size_t before = io_contacts.size();
+    if (body.isBall()) {
+        io_near.moveTo(field_, pose.position, body.radius, counts_);
+        for (const Touch& touch : io_near.touches())
+            if (touch.gap <= margin) io_contacts.push_back(ballContact(i, body, touch.normal, touch.gap, pairing(world_, body)));
+    } else if (!field_.empty()) {
+        const auto find = [&](double within, std::uint64_t& io_evaluations) {
+            std::vector<Placed> others;
+            for (const std::size_t s : field_.solidsNear(pose.position, body.radius + within)) {
+                const Solid& solid = field_.solid(s);
+                if (distanceTo(solid.box, pose.position) <= body.radius + within) others.push_back({&solid, {}, static_cast<std::uint32_t>(s)});
+            }
+            ++counts_.static_queries;
+            return others.empty() ? std::vector<ManifoldPoint>{} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
+        };
+        addPoints(i, body, pose, kStatic, nullptr, {}, margin, find, io_contacts);
+    }
+    counts_.static_contacts += io_contacts.size() - before;
+}
+
+void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, double margin,
+                       std::vector<Contact>& io_contacts) const {
+    const std::size_t before = io_contacts.size();
+    ++counts_.body_gaps;
+    if (a.isBall() && b.isBall()) {
+        const Contact c = ballContact(i, a, j, b, pairing(world_, a, b));
+        if (c.gap <= margin) io_contacts.push_back(c);
+    } else if (a.isBall()) {
+        ballWithShape(i, a, pose_a, j, b, pose_b, margin, io_contacts);
+    } else if (b.isBall()) {
+        ballWithShape(j, b, pose_b, i, a, pose_a, margin, io_contacts);
+    } else {
+        const auto find = [&](double within, std::uint64_t& io_evaluations) {
+            const Placed other{b.solid.get(), pose_b, 0};
+            return manifold({a.solid.get(), pose_a, 0}, {&other, 1}, within, io_evaluations);
+        };
+        addPoints(i, a, pose_a, j, &b, pose_b, margin, find, io_contacts);
+    }
+    counts_.body_contacts += io_contacts.size() - before;
+}
+
+void Collider::ballWithShape(int i, const Body& ball, const Pose& at, int j, const Body& shape, const Pose& pose, double margin,
+                             std::vector<Contact>& io_contacts) const {
+    std::vector<Touch> touches;
+    std::uint64_t evaluations = 0;
+    addTouches(*shape.solid, {pose.fromWorld(at.position), ball.radius}, margin, touches, evaluations);
+    keepUnhidden(touches, ball.radius);
+    field_.countEvaluations(evaluations);
+    for (const Touch& touch : touches) {
+        if (touch.gap > margin) continue;
+        Contact c = ballContact(i, ball, pose.rotation * touch.normal, touch.gap, pairing(world_, ball, shape));
+        c.b = j, c.arm_b = pose.rotation * touch.point;
+        io_contacts.push_back(c);
+    }
+}
+
+template <class Find>
+void Collider::addPoints(int i, const Body& a, const Pose& pose_a, int j, const Body* b, const Pose& pose_b, double margin, Find find,
+                         std::vector<Contact>& io_contacts) const {
+    const Pairing pair = b ? pairing(world_, a, *b) : pairing(world_, a);
+    const auto add = [&](const ManifoldPoint& p) {
+        if (p.gap > margin) return;
+        Contact c;
+        c.a = i, c.b = j, c.normal = p.normal, c.gap = p.gap, c.feature = p.feature, c.pairing = pair;
+        c.arm_a = p.point - pose_a.position;
+        if (b) c.arm_b = p.point - pose_b.position;
+        io_contacts.push_back(c);
+    };
+    std::uint64_t evaluations = 0;
+    if (!memory_) {
+        for (const ManifoldPoint& p : find(margin, evaluations)) add(p);
+    } else {
+        // What is looked for within the margin and a little more holds until it has moved by that little.
+        const std::uint32_t id_a = a.object.value, id_b = b ? b->object.value : 0;
+        const double slack = kFollowed * (b ? std::min(a.inner, b->inner) : a.inner);
+        const ManifoldMemory::Entry* entry = memory_->follow(id_a, id_b, pose_a, pose_b, a.radius, margin);
+        if (!entry) entry = &memory_->remember(id_a, id_b, pose_a, pose_b, margin, slack, find(margin + slack, evaluations));
+        for (const FollowedPoint& p : entry->points) add(pointOf(p, pose_a, pose_b));
+    }
+    field_.countEvaluations(evaluations);
+}
+
+}  // namespace mb

@@ -1,0 +1,243 @@
+#include "physics/manifold.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace mb {
+namespace {
+
+constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
+constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
+constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
+constexpr double kSharp = 0.9;              // of a cone's cosine: less is an edge or a corner
+constexpr std::array kInwards{0.02, 0.08, 0.3};  // of the spacing: how far inside a sharp point its partner's face is read
+constexpr double kBeside = 0.01;            // of the spacing
+constexpr double kCone = 0.1;               // by which a contact's normal may leave the cone of the surface's own
+constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
+
+/// A surface point of one solid near the other.
+struct Candidate {
+    glm::dvec3 at{0};                       // in the world
+    double gap = 0;
+    std::uint64_t feature = 0;
+    std::size_t other = 0;
+    bool of_a = true;
+    const SurfacePoint* from = nullptr;
+    double inwards = 0;                     // where the other's field is read, m behind the point
+    glm::dvec3 normal{0};                   // towards a
+};
+
+class Search {
+public:
+    Search(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations)
+        : a_(a), others_(others), margin_(margin), evaluations_(io_evaluations) {}
+
+    std::vector<ManifoldPoint> run() {
+        collectOfA();
+        for (std::size_t o = 0; o < others_.size(); ++o) collectOfOther(o);
+        std::vector<ManifoldPoint> points;
+        for (Candidate c : outermost(touching())) {
+            if (!isSharp(c)) refine(c);
+            if (c.gap <= margin_ && faces(c)) addApart(c, points);
+        }
+        for (Candidate c : lowest()) {
+            c.inwards = isSharp(c) ? kInwards[0] * spacingOf(c) : 0;
+            refine(c);
+            if (c.gap <= margin_ && faces(c)) addApart(c, points);
+        }
+        return points;
+    }
+
+private:
+    const Placed& asked(const Candidate& c) const { return c.of_a ? others_[c.other] : a_; }
+    const Placed& owner(const Candidate& c) const { return c.of_a ? a_ : others_[c.other]; }
+    static bool isSharp(const Candidate& c) { return c.from->cosine < kSharp; }
+    double spacingOf(const Candidate& c) const { return owner(c).solid->points.spacing(); }
+
+    double fieldOf(const Placed& p, glm::dvec3 at) const { return ++evaluations_, p.solid->at(p.pose.fromWorld(at)); }
+    Slope slopeOf(const Placed& p, glm::dvec3 at) const {
+        ++evaluations_;
+        Slope s = p.solid->slopeAt(p.pose.fromWorld(at));
+        s.gradient = p.pose.rotation * s.gradient;
+        return s;
+    }
+    bool near(const Placed& p, glm::dvec3 at, double reach) const {
+        return distanceTo(p.solid->box, p.pose.fromWorld(at)) <= reach && fieldOf(p, at) <= reach;
+    }
+
+    void collectOfA() {
+        const double reach = margin_ + 0.5 * a_.solid->points.spacing();
+        const auto may = [&](glm::dvec3 centre, double radius) {
+            const glm::dvec3 at = a_.pose.toWorld(centre);
+            return std::ranges::any_of(others_, [&](const Placed& o) { return near(o, at, radius + reach); });
+        };
+        a_.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
+            const glm::dvec3 at = a_.pose.toWorld(point.place);
+            Candidate best{at, reach, i, 0, true, &point, 0, {}};
+            bool found = false;
+            for (std::size_t o = 0; o < others_.size(); ++o) {
+                if (distanceTo(others_[o].solid->box, others_[o].pose.fromWorld(at)) > best.gap) continue;
+                if (const double f = fieldOf(others_[o], at); f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
+            }
+            if (found) candidates_.push_back(best);
+        });
+    }
+
+    void collectOfOther(std::size_t o) {
+        const Placed& other = others_[o];
+        const double reach = margin_ + 0.5 * other.solid->points.spacing();
+        const auto may = [&](glm::dvec3 centre, double radius) { return near(a_, other.pose.toWorld(centre), radius + reach); };
+        other.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
+            const glm::dvec3 at = other.pose.toWorld(point.place);
+            if (const double f = fieldOf(a_, at); f <= reach)
+                candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &point, 0, {}});
+        });
+    }
+
+    /// The other's field at a candidate's place, read `inwards` metres inside and continued from there.
+    Slope otherAt(const Candidate& c, glm::dvec3 at, double inwards) const {
+        if (inwards == 0) return slopeOf(asked(c), at);
+        const glm::dvec3 out = inwards * (owner(c).pose.rotation * c.from->normal);
+        Slope s = slopeOf(asked(c), at - out);
+        s.distance += glm::dot(s.gradient, out);
+        return s;
+    }
+
+    /// Sets the candidate's gap and normal; says whether it is a contact. At the other's edges the field has no one slope, and
+    /// deep inside or beside them it has the wrong one: of a box just on the rim of another, or sunk into it there. So that of a
+    /// sharp point is read ever further inside until the surfaces face one another.
+    bool settle(Candidate& io_c) const {
+        for (const double share : kInwards) {
+            io_c.inwards = isSharp(io_c) ? share * spacingOf(io_c) : 0;
+            setTo(io_c, otherAt(io_c, io_c.at, io_c.inwards));
+            if (faces(io_c)) return io_c.gap <= margin_;
+            if (!isSharp(io_c)) break;
+        }
+        return false;
+    }
+
+    void setTo(Candidate& io_c, const Slope& s) const {
+        const double l = glm::length(s.gradient);
+        io_c.gap = s.distance;
+        io_c.normal = l > 1e-6 ? (io_c.of_a ? 1 / l : -1 / l) * s.gradient : glm::dvec3{0};
+    }
+
+    /// Whether the two surfaces face one another there: the corner of a box beside another box is near its side, and yet what it
+    /// stands on is below.
+    bool faces(const Candidate& c) const {
+        const double facing = glm::dot(owner(c).pose.rotation * c.from->normal, c.normal);
+        return (c.of_a ? -facing : facing) >= c.from->cosine - kCone;
+    }
+
+    /// Those within the margin as they are, with their normals. A corner that juts out over the other's rim by a little counts as
+    /// on it: the rim's own corner may do so the other way.
+    std::vector<Candidate> touching() const {
+        std::vector<Candidate> found;
+        for (Candidate c : candidates_)
+            if (c.gap <= margin_ + (isSharp(c) ? kBeside * spacingOf(c) : 0) && settle(c)) found.push_back(c);
+        return found;
+    }
+
+    /// Of a curve, or where two edges cross, the points on either side may be beyond the margin though the curve is within it: of
+    /// those the lowest around.
+    std::vector<Candidate> lowest() const {
+        std::vector<Candidate> found;
+        for (const Candidate& c : candidates_) {
+            if (c.gap <= margin_) continue;
+            const double around = kAlone * spacingOf(c);
+            const bool beaten = std::ranges::any_of(candidates_, [&](const Candidate& d) {
+                return d.of_a == c.of_a && d.other == c.other && (d.gap < c.gap || (d.gap == c.gap && d.feature < c.feature)) &&
+                       glm::length(d.at - c.at) < around;
+            });
+            if (!beaten) found.push_back(c);
+        }
+        return found;
+    }
+
+    /// Of each group of like normals the outermost in eight directions, and the deepest if it is deeper than all of those.
+    /// The directions lie in a's frame, off its axes: they choose the same points while a rests.
+    std::vector<Candidate> outermost(const std::vector<Candidate>& all) const {
+        std::vector<Candidate> chosen;
+        std::vector<char> grouped(all.size(), 0);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (grouped[i]) continue;
+            std::vector<std::size_t> group;
+            for (std::size_t k = i; k < all.size(); ++k)
+                if (!grouped[k] && glm::dot(all[i].normal, all[k].normal) > kAlike) grouped[k] = 1, group.push_back(k);
+            chooseOf(all, group, chosen);
+        }
+        return chosen;
+    }
+
+    void chooseOf(const std::vector<Candidate>& all, const std::vector<std::size_t>& group, std::vector<Candidate>& out) const {
+        const std::size_t deepest = *std::ranges::min_element(group, {}, [&](std::size_t k) { return all[k].gap; });
+        const glm::dvec3 n = all[group[0]].normal;
+        const glm::dvec3 in_a = n * a_.pose.rotation, size = glm::abs(in_a);
+        const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+        const glm::dvec3 u = glm::normalize(glm::cross(n, a_.pose.rotation[axis])), v = glm::cross(n, u);
+        constexpr std::array<std::array<double, 2>, 8> kWays{{{0.92, 0.39}, {0.37, 0.93}, {-0.41, 0.91}, {-0.94, 0.35},
+                                                              {-0.91, -0.42}, {-0.36, -0.93}, {0.4, -0.92}, {0.93, -0.38}}};
+        std::vector<std::size_t> picked;
+        for (const auto& [x, y] : kWays) {
+            const glm::dvec3 way = x * u + y * v;
+            const std::size_t far = *std::ranges::max_element(group, {}, [&](std::size_t k) { return glm::dot(way, all[k].at - a_.pose.position); });
+            if (std::ranges::find(picked, far) == picked.end()) picked.push_back(far);
+        }
+        const bool beneath = std::ranges::all_of(picked, [&](std::size_t k) { return all[deepest].gap < all[k].gap - 0.1 * std::fabs(margin_); });
+        if (beneath) picked.push_back(deepest);
+        for (const std::size_t k : picked) out.push_back(all[k]);
+    }
+
+    /// Moves the point along its own solid's surface to where the other's field is least; a corner stays.
+    void refine(Candidate& io_c) const {
+        const Placed& mine = owner(io_c);
+        Slope there = otherAt(io_c, io_c.at, io_c.inwards);
+        double stride = 0.25 * spacingOf(io_c);
+        for (int i = 0; i < 12 && stride > 1e-4 * spacingOf(io_c); ++i) {
+            const Slope here = slopeOf(mine, io_c.at);
+            const double l2 = glm::dot(here.gradient, here.gradient);
+            if (!(l2 > 1e-6)) break;
+            const glm::dvec3 along = (glm::dot(there.gradient, here.gradient) / l2) * here.gradient - there.gradient;
+            const double slant = glm::length(along);
+            if (slant < 1e-4) break;
+            glm::dvec3 next = io_c.at + (stride / slant) * along;
+            for (int round = 0; round < 2; ++round) {
+                const Slope s = slopeOf(mine, next);
+                const double n2 = glm::dot(s.gradient, s.gradient);
+                if (n2 > 1e-6) next -= (s.distance / n2) * s.gradient;
+            }
+            const Slope lower = otherAt(io_c, next, io_c.inwards);
+            if (lower.distance < there.distance - 1e-9 * stride) io_c.at = next, there = lower;
+            else stride *= 0.25;
+        }
+        setTo(io_c, there);
+    }
+
+    /// Adds it unless there is one at its place already; of two the deeper stays.
+    void addApart(const Candidate& c, std::vector<ManifoldPoint>& io_points) const {
+        const ManifoldPoint point{c.at, c.normal, c.gap, c.feature, c.other};
+        const double same = kSame * std::min(spacingOf(c), a_.solid->points.spacing());
+        for (ManifoldPoint& p : io_points) {
+            if (p.other != c.other || glm::length(p.point - c.at) > same || glm::dot(p.normal, c.normal) < kAlike) continue;
+            if (c.gap < p.gap - 1e-9) p = point;
+            return;
+        }
+        io_points.push_back(point);
+    }
+
+    const Placed& a_;
+    std::span<const Placed> others_;
+    double margin_;
+    std::uint64_t& evaluations_;
+    std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::vector<ManifoldPoint> manifold(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations) {
+    return Search(a, others, margin, io_evaluations).run();
+}
+
+}  // namespace mb

@@ -1,0 +1,77 @@
+#include "physics/memory.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace mb {
+namespace {
+
+Pose seenFrom(const Pose& b, const Pose& a) { return {b.fromWorld(a.position), glm::transpose(b.rotation) * a.rotation}; }
+
+bool before(const ManifoldMemory::Entry& x, const ManifoldMemory::Entry& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); }
+
+/// What no point within the radius has moved by more than between two poses.
+double movedBetween(const Pose& x, const Pose& y, double radius) {
+    double turn = 0;  // the sum of squares of a matrix is no less than the square of what it stretches by
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 d = x.rotation[i] - y.rotation[i];
+        turn += glm::dot(d, d);
+    }
+    return glm::length(x.position - y.position) + radius * std::sqrt(turn);
+}
+
+}  // namespace
+
+void ManifoldMemory::begin() {
+    last_ = std::move(now_);
+    now_.clear();
+    std::sort(last_.begin(), last_.end(), before);  // no two are equal
+}
+
+const ManifoldMemory::Entry* ManifoldMemory::follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius,
+                                                    double margin) {
+    Entry wanted;
+    wanted.a = a, wanted.b = b;
+    const auto found = std::lower_bound(last_.begin(), last_.end(), wanted, before);
+    if (found == last_.end() || found->a != a || found->b != b) return nullptr;
+    const double moved = movedBetween(found->found, seenFrom(pose_b, pose_a), radius);
+    if (moved > found->slack || margin + moved > found->reach) return nullptr;
+    now_.push_back(std::move(*found));
+    found->slack = -1;
+    return &now_.back();
+}
+
+const ManifoldMemory::Entry& ManifoldMemory::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double margin,
+                                                      double slack, std::span<const ManifoldPoint> points) {
+    Entry entry{a, b, seenFrom(pose_b, pose_a), slack, margin + slack, {}};
+    for (const ManifoldPoint& p : points)
+        entry.points.push_back({pose_a.fromWorld(p.point), pose_b.fromWorld(p.point - p.gap * p.normal), p.normal * pose_b.rotation, p.feature});
+    now_.push_back(std::move(entry));
+    return now_.back();
+}
+
+void ManifoldMemory::addTo(StateHash& io_hash) const {
+    for (const Entry& e : now_) {
+        io_hash.add(std::uint64_t{e.a}), io_hash.add(std::uint64_t{e.b});
+        io_hash.add(e.found.position), io_hash.add(e.slack), io_hash.add(e.reach);
+        for (int i = 0; i < 3; ++i) io_hash.add(e.found.rotation[i]);
+        for (const FollowedPoint& p : e.points) io_hash.add(p.on_a), io_hash.add(p.on_b), io_hash.add(p.normal), io_hash.add(p.feature);
+    }
+}
+
+void ManifoldMemory::forget(std::uint32_t object) {
+    std::erase_if(now_, [&](const Entry& e) { return e.a == object || e.b == object; });
+}
+
+ManifoldPoint pointOf(const FollowedPoint& followed, const Pose& pose_a, const Pose& pose_b) {
+    ManifoldPoint p;
+    p.point = pose_a.toWorld(followed.on_a);
+    p.normal = pose_b.rotation * followed.normal;
+    p.gap = glm::dot(p.normal, p.point - pose_b.toWorld(followed.on_b));
+    p.feature = followed.feature;
+    return p;
+}
+
+}  // namespace mb

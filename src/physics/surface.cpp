@@ -1,0 +1,159 @@
+#include "physics/surface.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace mb {
+namespace {
+
+constexpr int kCells = 10;        // along the longest side of the box
+constexpr int kFewest = 3;        // along the shortest
+constexpr double kGrown = 0.37;   // of a cell, that the grid begins outside the box: no face lies between two cells
+constexpr std::uint32_t kLeafPoints = 4;
+
+/// A plane that touches the surface.
+struct Plane {
+    glm::dvec3 point{0}, normal{0};
+};
+
+/// The surface's plane next to p, if Newton's steps along the gradient reach the surface within `reach`.
+std::optional<Plane> planeNear(const Tree& tree, glm::dvec3 p, glm::dvec3 centre, glm::dvec3 reach, double on) {
+    for (int i = 0; i < 8; ++i) {
+        const Slope s = slope(tree, p);
+        const double l2 = glm::dot(s.gradient, s.gradient);
+        if (!(l2 > 1e-6)) return std::nullopt;
+        if (std::fabs(s.distance) <= on) return Plane{p, s.gradient / std::sqrt(l2)};
+        p -= (s.distance / l2) * s.gradient;
+        const glm::dvec3 off = glm::abs(p - centre);
+        if (off.x > reach.x || off.y > reach.y || off.z > reach.z) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// Where the planes meet, or of the points where they nearly do the one next to the mean of theirs: least squares, drawn to the
+/// mean a little, the mean then moved there.
+glm::dvec3 meetingPoint(std::span<const Plane> planes) {
+    glm::dvec3 at{0};
+    glm::dmat3 normal{0};
+    for (const Plane& p : planes) at += p.point / static_cast<double>(planes.size()), normal += glm::outerProduct(p.normal, p.normal);
+    const double draw = 1e-5 * static_cast<double>(planes.size());
+    for (int i = 0; i < 3; ++i) normal[i][i] += draw;
+    const glm::dmat3 inverse = glm::inverse(normal);
+    for (int round = 0; round < 4; ++round) {
+        glm::dvec3 off{0};
+        for (const Plane& p : planes) off += glm::dot(p.normal, p.point - at) * p.normal;
+        at += inverse * off;
+    }
+    return at;
+}
+
+/// A narrow cone that holds the planes' normals: its middle goes ever less far towards the one that is farthest from it
+/// (Bădoiu, Clarkson, "Smaller Core-Sets for Balls", 2003).
+void setCone(std::span<const Plane> planes, SurfacePoint& out) {
+    const auto farthest = [&] { return std::ranges::min_element(planes, {}, [&](const Plane& p) { return glm::dot(p.normal, out.normal); })->normal; };
+    out.normal = planes[0].normal;
+    for (int i = 1; i <= 40; ++i) {
+        const glm::dvec3 middle = out.normal + (farthest() - out.normal) / (i + 1.0);
+        if (glm::dot(middle, middle) > 1e-6) out.normal = glm::normalize(middle);
+    }
+    out.cosine = glm::dot(farthest(), out.normal);
+}
+
+/// The points of one cell.
+class Cell {
+public:
+    Cell(const Tree& tree, glm::dvec3 centre, glm::dvec3 half, double size) : tree_(tree), centre_(centre), half_(half), on_(1e-10 * size) {}
+
+    void addTo(std::vector<SurfacePoint>& out) const {
+        std::vector<Plane> front, back;  // two sides of a thin wall
+        for (int k = 0; k < 9; ++k) {
+            const glm::dvec3 corner{k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1};
+            const auto plane = planeNear(tree_, k < 8 ? centre_ + 0.9 * corner * half_ : centre_, centre_, 1.1 * half_, on_);
+            if (!plane) continue;
+            const bool behind = !front.empty() && glm::dot(plane->normal, front[0].normal) < -0.5;
+            (behind ? back : front).push_back(*plane);
+        }
+        addSide(front, out), addSide(back, out);
+    }
+
+private:
+    void addSide(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
+        if (planes.empty()) return;
+        SurfacePoint found;
+        setCone(planes, found);
+        if (found.cosine > 1 - 1e-9) return;  // flat
+        const glm::dvec3 meet = meetingPoint(planes);
+        const glm::dvec3 off = glm::abs(meet - centre_);
+        const bool within = off.x <= half_.x && off.y <= half_.y && off.z <= half_.z;
+        if (within && std::fabs(distance<double>(tree_, {meet.x, meet.y, meet.z})) <= 10 * on_) {
+            found.place = meet;
+            return out.push_back(found);
+        }
+        // Of a curve, the point nearest to the middle of those found, if it is this cell's.
+        glm::dvec3 middle{0};
+        for (const Plane& p : planes) middle += p.point / static_cast<double>(planes.size());
+        const auto plane = planeNear(tree_, middle, centre_, half_, on_);
+        if (!plane) return;
+        found.place = plane->point;
+        out.push_back(found);
+    }
+
+    const Tree& tree_;
+    glm::dvec3 centre_, half_;
+    double on_;
+};
+
+}  // namespace
+
+SurfacePoints::SurfacePoints(std::vector<SurfacePoint> points, double spacing) : points_(std::move(points)), spacing_(spacing) {
+    if (!points_.empty()) build(0, static_cast<std::uint32_t>(points_.size()));
+}
+
+/// Halves the points along their box's longest side until few are left.
+void SurfacePoints::build(std::uint32_t first, std::uint32_t count) {
+    const std::size_t n = nodes_.size();
+    const auto begin = points_.begin() + first, end = begin + count;
+    glm::dvec3 lo = begin->place, hi = lo;
+    for (auto p = begin; p != end; ++p) lo = glm::min(lo, p->place), hi = glm::max(hi, p->place);
+    Node node{0.5 * (lo + hi), 0, first, count, 0};
+    for (auto p = begin; p != end; ++p) node.radius = std::max(node.radius, glm::length(p->place - node.centre));
+    nodes_.push_back(node);
+    if (count > kLeafPoints) {
+        const glm::dvec3 size = hi - lo;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        std::stable_sort(begin, end, [axis](const SurfacePoint& a, const SurfacePoint& b) { return a.place[axis] < b.place[axis]; });
+        build(first, count / 2);
+        build(first + count / 2, count - count / 2);
+    }
+    nodes_[n].skip = static_cast<std::uint32_t>(nodes_.size());
+}
+
+SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner) {
+    const glm::dvec3 lo{box.lo[0], box.lo[1], box.lo[2]}, size = glm::dvec3{box.hi[0], box.hi[1], box.hi[2]} - lo;
+    const double longest = std::max({size.x, size.y, size.z});
+    out_inner = 0;
+    if (!(longest > 0)) return {};
+    glm::ivec3 cells;
+    glm::dvec3 cell;
+    for (int i = 0; i < 3; ++i) {
+        cells[i] = std::max(kFewest, static_cast<int>(std::ceil(kCells * size[i] / longest)));
+        cell[i] = std::max(size[i], 1e-6 * longest) / (cells[i] - 2 * kGrown);
+    }
+    std::vector<SurfacePoint> points;
+    const glm::dvec3 half = 0.5 * cell;
+    const double reach = glm::length(half);
+    for (int z = 0; z < cells.z; ++z)
+        for (int y = 0; y < cells.y; ++y)
+            for (int x = 0; x < cells.x; ++x) {
+                const glm::dvec3 centre = lo + (glm::dvec3{x, y, z} + 0.5 - kGrown) * cell;
+                const double f = distance<double>(tree, {centre.x, centre.y, centre.z});
+                out_inner = std::max(out_inner, -f);
+                if (std::fabs(f) <= reach) Cell(tree, centre, half, longest).addTo(points);
+            }
+    return SurfacePoints(std::move(points), 2 * reach);
+}
+
+}  // namespace mb

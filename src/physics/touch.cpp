@@ -1,0 +1,180 @@
+#include "physics/touch.h"
+
+#include "physics/closest.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace mb {
+namespace {
+
+constexpr std::size_t kNearLeaves = 8;  // of one solid, looked at around one ball: their faces, edges and corners
+constexpr double kTooNear = 1e-9;       // of the radius: a point so near to the centre has no direction
+
+/// The search of one solid's points around one ball.
+struct Search {
+    const Solid& solid;
+    glm::dvec3 c;
+    double radius, margin;
+    std::vector<Touch>& found;
+    std::uint64_t& evaluations;
+
+    double field(glm::dvec3 p) const { return ++evaluations, solid.at(p); }
+
+    /// A shape less itself has a surface of no thickness. Behind a face there is solid; behind a sharp corner, where the
+    /// line from the ball may pass it by, there is some towards the leaf's middle.
+    bool solidBehind(glm::dvec3 point, glm::dvec3 normal, std::span<const std::size_t> leaves) const {
+        const double reach = 1e-4 * radius;
+        if (field(point - reach * normal) < 0) return true;
+        if (leaves.empty()) return false;
+        const glm::dvec3 inwards = solid.tree.leaves[leaves[0]].position - point;
+        const double l = glm::length(inwards);
+        return l > 0 && field(point + (reach / l) * inwards) < 0;
+    }
+
+    /// Adds the local minimum of the distance on these leaves (or on the whole tree, where there are none) if it lies on
+    /// the solid's surface and faces the ball.
+    bool add(std::span<const std::size_t> leaves, glm::dvec3 start, bool* parallel = nullptr, bool anywhere = false) const {
+        std::array<Surface, 3> surfaces{};
+        for (std::size_t i = 0; i < leaves.size(); ++i) surfaces[i].leaf = &solid.tree.leaves[leaves[i]];
+        if (leaves.empty()) surfaces[0].tree = &solid.tree;
+        const std::span<const Surface> all(surfaces.data(), std::max<std::size_t>(leaves.size(), 1));
+        const auto closest = anywhere ? pointOn(all, c, start, radius, evaluations) : closestPoint(all, c, start, radius, evaluations, parallel);
+        if (!closest) return false;
+
+        const glm::dvec3 away = c - closest->point;
+        const double d = glm::length(away);
+        if (!(d > kTooNear * radius) || d > radius + margin) return false;
+        const double on = 1e-8 * (1 + radius + glm::length(c));
+        if (std::fabs(field(closest->point)) > on) return false;
+        // On an edge each surface must push outwards; on a face there must be a solid behind the point.
+        if (leaves.size() > 1) {
+            for (std::size_t i = 0; i < leaves.size(); ++i)
+                if (closest->shares[i] * solid.side[leaves[i]] < -1e-9 * d) return false;
+        } else if (!solidBehind(closest->point, away / d, leaves)) {
+            return false;
+        }
+        found.push_back({closest->point, away / d, d - radius});
+        return true;
+    }
+
+    /// The leaves whose surface may be within reach, nearest first.
+    std::vector<std::size_t> nearLeaves() const {
+        std::vector<std::pair<double, std::size_t>> near;
+        const auto look = [&](std::size_t i) {
+            if (solid.side[i] == 0) return;
+            const Leaf& leaf = solid.tree.leaves[i];
+            const glm::dvec3 q = (c - leaf.position) * leaf.rotation;
+            const double f = std::fabs(leaf.primitive->distance<double>({q.x, q.y, q.z}, leaf.numbers));
+            if (f <= radius + margin) near.push_back({f, i});
+        };
+        if (solid.grid)
+            for (const std::uint32_t i : solid.grid->leavesNear(c, radius + margin)) look(i);
+        else
+            for (std::size_t i = 0; i < solid.tree.leaves.size(); ++i) look(i);
+        ++evaluations;
+        std::sort(near.begin(), near.end());  // no two are equal: the indices differ
+        if (near.size() > kNearLeaves) near.resize(kNearLeaves);
+        std::vector<std::size_t> leaves;
+        for (const auto& [f, i] : near) leaves.push_back(i);
+        return leaves;
+    }
+
+    /// The nearest point of two surfaces' common curve, and three more around the ball: over a round hole it rests on the
+    /// rim on all sides, though one is nearest. (Elsewhere these lie below the first one's tangent plane and are dropped.)
+    void addEdge(std::size_t a, std::size_t b) const {
+        const std::array edge{a, b};
+        const glm::dvec3 axis = slope(solid.tree.leaves[a], c).gradient;
+        glm::dvec3 side{0}, down{0};
+        bool parallel = false;
+        if (add(edge, c, &parallel)) {
+            const glm::dvec3 to = found.back().point - c;
+            down = glm::dot(to, axis) * axis, side = to - down;
+        } else if (parallel) {
+            // Straight above its middle the surfaces' gradients are parallel, and no side is the nearest.
+            side = 0.5 * radius * glm::cross(axis, std::fabs(axis.x) < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0});
+            add(edge, c + side, nullptr, true);
+        }
+        if (!(glm::dot(side, side) > 1e-12 * radius * radius)) return;
+        const glm::dvec3 across = glm::cross(axis, side);
+        for (const glm::dvec3& way : {across, -side, -across}) add(edge, c + down + way, nullptr, true);
+    }
+
+    void facesEdgesCorners() const {
+        const std::vector<std::size_t> near = nearLeaves();
+        for (std::size_t a = 0; a < near.size(); ++a) {
+            add(std::array{near[a]}, c);
+            for (std::size_t b = a + 1; b < near.size(); ++b) {
+                addEdge(near[a], near[b]);
+                for (std::size_t d = b + 1; d < near.size(); ++d) add(std::array{near[a], near[b], near[d]}, c);
+            }
+        }
+        if (solid.blended) add({}, c);
+    }
+
+    /// From a point pushed off the ones found: the leaf that is nearest there, and its own nearest point to the ball.
+    bool probe(glm::dvec3 direction) const {
+        const glm::dvec3 from = c + (0.5 * radius) * direction;
+        const Slope s = slope(solid.tree, from);
+        const int leaf = nearest<double>(solid.tree, {from.x, from.y, from.z}).leaf;
+        evaluations += 2;
+        if (s.distance <= 0 || leaf < 0) return false;
+        const glm::dvec3 start = from - s.distance * s.gradient;
+        const bool smooth = solid.blended && add({}, start);
+        return add(std::array{static_cast<std::size_t>(leaf)}, start) || smooth;
+    }
+
+    /// The other walls of a corner that one leaf makes alone, as a box taken away does. Where nothing else is near, half
+    /// a radius away from the first point is half a radius further from the solid, and there is nothing to look for.
+    void otherWalls(double f) const {
+        if (found.empty()) return;
+        const glm::dvec3 n = found.front().normal;
+        if (field(c + (0.5 * radius) * n) >= f + 0.5 * radius * (1 - 1e-9)) return;
+        const std::size_t before = found.size();
+        probe(n);
+        if (found.size() == before) return;
+        const glm::dvec3 m = found.back().normal, sum = n + m, cross = glm::cross(n, m);
+        if (const double l = glm::length(sum); l > 1e-3) probe(sum / l);
+        if (const double l = glm::length(cross); l > 1e-3) probe(cross / l), probe(-cross / l);
+    }
+};
+
+}  // namespace
+
+FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vector<Touch>& io_touches, std::uint64_t& io_evaluations) {
+    const double outside = distanceTo(solid.box, ball.centre) - ball.radius;
+    if (outside > margin) return {outside, outside};
+    std::vector<Touch> found;
+    const Search search{solid, ball.centre, ball.radius, margin, found, io_evaluations};
+    const double f = search.field(ball.centre);
+    FreeGap gap{INFINITY, f - ball.radius};
+    if (f - ball.radius > margin) return {f - ball.radius, f - ball.radius};
+    if (f <= 2 * kTooNear * ball.radius) {
+        // The centre is inside, or on the surface: out along the gradient, and upwards where it is 0.
+        const glm::dvec3 g = solid.slopeAt(ball.centre).gradient;
+        const double l = glm::length(g);
+        const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};
+        found.push_back({ball.centre - f * n, n, f - ball.radius});
+    } else {
+        search.facesEdgesCorners();
+        search.otherWalls(f);
+        if (found.empty()) gap.free = std::max(f - ball.radius, margin);
+    }
+    io_touches.insert(io_touches.end(), found.begin(), found.end());
+    return gap;
+}
+
+void keepUnhidden(std::vector<Touch>& io_touches, double radius) {
+    std::stable_sort(io_touches.begin(), io_touches.end(), [](const Touch& a, const Touch& b) { return a.gap < b.gap; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < io_touches.size(); ++i) {
+        bool hidden = false;
+        for (std::size_t k = 0; k < kept && !hidden; ++k)
+            hidden = glm::dot(io_touches[i].point - io_touches[k].point, io_touches[k].normal) <= 1e-7 * radius;
+        if (!hidden) io_touches[kept++] = io_touches[i];
+    }
+    io_touches.resize(kept);
+}
+
+}  // namespace mb
