@@ -1,6 +1,6 @@
 // Between a scene and its physics: which objects move, with what mass, and where they came to lie.
 #include "core/effects/effect.h"
-#include "physics/volume.h"
+#include "physics/mass_properties.h"
 #include "physics/world.h"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ Movable movable(const Scene& scene, std::size_t object) {
             sum += 0.25 * (box.hi[k] - box.lo[k]) * (box.hi[k] - box.lo[k]);
         }
         m.radius = std::sqrt(sum);
-        m.mass = o.mass > 0 ? o.mass : o.density * volume(tree).value;
+        m.mass = o.mass > 0 ? o.mass : o.density * massProperties(tree).volume;
     }
     const double inertia = 0.4 * m.mass * m.radius * m.radius;
     if (!(inertia > 0) || !std::isfinite(1 / inertia) || !std::isfinite(inertia)) m.why_not = "its mass or its size is out of range";

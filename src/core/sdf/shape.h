@@ -4,6 +4,7 @@
 #include "core/sdf/glsl.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -43,6 +44,13 @@ struct Box {
     std::array<double, 3> lo, hi;
 };
 
+/// How a primitive's matter lies, for density 1. Its frame's axes, moved to the centre of mass, are principal ones.
+struct Matter {
+    double volume = 0;                         // m³
+    double centre_y = 0;                       // m: of the centre of mass, which lies on the frame's y axis
+    std::array<double, 3> spread{};            // m²: the mean square of the distance from the centre along x, y and z
+};
+
 struct Primitive : ShapeType {
     std::string_view glsl;                     // the function: sdSphere
     std::string_view derived;                  // one more number behind the keys' own, or none: its name in the GLSL
@@ -52,6 +60,7 @@ struct Primitive : ShapeType {
     Box (*extent)(const LeafNumbers&) = nullptr;  // the tightest box around it, from cooked numbers
     void (*moveOrigin)(LeafNumbers&, const std::array<double, 3>& by) = nullptr;  // of one without bounds: the same shape seen from another origin
     double (*rises)(const LeafNumbers&) = nullptr;  // of a bound: at least how much a metre away from the shape adds to it
+    std::optional<Matter> (*matter)(const LeafNumbers&) = nullptr;  // its closed form, where there is one for these numbers
     float (*f32)(sdf::Vec3<float>, const double*) = nullptr;
     double (*f64)(sdf::Vec3<double>, const double*) = nullptr;
     sdf::Dual (*dual)(sdf::Vec3<sdf::Dual>, const double*) = nullptr;
