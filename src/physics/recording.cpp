@@ -94,7 +94,7 @@ std::optional<Divergence> compare(const Recording& recording, const PhysicsWorld
 }
 
 std::string describe(const Divergence& d) {
-    const std::string what = d.body.empty() ? std::string("the state is another, though no body kept of it is") : fmt::format("body '{}' is another", d.body);
+    const std::string what = d.body.empty() ? std::string("the state is another, and no body is known to be") : fmt::format("body '{}' is another", d.body);
     return fmt::format("at step {}: {} (state {:016x}, recorded {:016x})", d.step, what, d.found, d.recorded);
 }
 
