@@ -127,10 +127,8 @@ void Timeline::thin() {
 }
 
 std::uint64_t Timeline::act(Action action) {
-    target_.reset();
     const std::uint64_t discarded = last() - step();
-    if (!atEnd()) discardFuture();
-    end_.reset();
+    discardFuture();
     action.step = step();
     if (!action.kind->has_scene) {
         before_statics_.reset();
@@ -149,6 +147,8 @@ std::uint64_t Timeline::act(Action action) {
 }
 
 void Timeline::discardFuture() {
+    target_.reset(), end_.reset();
+    if (atEnd()) return;
     for (std::size_t i = step(); i < recording_.steps.size(); ++i) recording_bytes_ -= bytesOf(recording_.steps[i]);
     for (std::size_t i = done_; i < recording_.actions.size(); ++i) recording_bytes_ -= bytesOf(recording_.actions[i]);
     recording_.steps.resize(step()), recording_.actions.resize(done_);

@@ -37,6 +37,8 @@ public:
     /// Does it now. Says how many steps were recorded from here on, which are discarded. Changes of the statics with no step
     /// between them count as the last of them alone.
     std::uint64_t act(Action action);
+    /// Forgets what was recorded behind this moment, which is the end then.
+    void discardFuture();
     /// Goes to a moment, at most the end: exactly the state that was there.
     void seek(std::uint64_t step) { aim(step), arrive(); }
     /// The same in slices: whether it is reached. aim() may reach it at once; advance() and act() give the rest up.
@@ -69,7 +71,6 @@ private:
     void record();
     void keepSnapshot();
     void thin();
-    void discardFuture();
 
     Recording recording_;
     PhysicsWorld world_;
