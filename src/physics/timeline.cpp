@@ -9,6 +9,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSnapshotShare = 0.02;  // of the time the steps take: what copying worlds may take at most
+constexpr double kSlow_s = 0.1;          // where fewer steps take so long, they need not be made again to go back
 constexpr std::size_t kTouches = 2;      // that a body keeps in mind, on average
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -16,10 +17,13 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 std::size_t bytesOf(const Scene& scene) {
     return sizeof(Scene) + scene.objects.size() * (sizeof(Object) + 32) + scene.materials.size() * sizeof(Material);
 }
-/// Of a copy: bodies with what they keep in mind, and solids with their trees.
-std::size_t bytesOf(const PhysicsWorld& world, const Scene& scene) {
+/// Of a copy, but for the static shapes: bodies with what they keep in mind.
+std::size_t bytesOf(const PhysicsWorld& world) {
     constexpr std::size_t kBody = sizeof(Body) + sizeof(NearStatics) + kTouches * sizeof(Touch);
-    return sizeof(PhysicsWorld) + world.bodies().size() * kBody + scene.objects.size() * sizeof(Leaf);
+    return sizeof(PhysicsWorld) + world.bodies().size() * kBody;
+}
+std::size_t bytesOf(const Tree& tree) {
+    return tree.leaves.size() * (sizeof(Leaf) + 1) + tree.branches.size() * sizeof(Branch) + tree.program.size() * sizeof(Instruction);
 }
 std::size_t bytesOf(const StepHash& hash) { return sizeof hash + hash.bodies.capacity() * sizeof hash.bodies[0]; }
 std::size_t bytesOf(const Action& action) { return sizeof action + (action.scene ? bytesOf(*action.scene) : 0); }
@@ -41,9 +45,7 @@ Timeline::Timeline(Recording recording, TimelineOptions options)
     recording_bytes_ = bytesOf(*recording_.start);
     for (const StepHash& step : recording_.steps) recording_bytes_ += bytesOf(step);
     for (const Action& action : recording_.actions) recording_bytes_ += bytesOf(action);
-    const auto begin = Clock::now();
-    const Snapshot& start = snapshots_.emplace(0, snapshot()).first->second;
-    copying_s_ = secondsSince(begin), snapshot_bytes_ = start.bytes;
+    snapshot_bytes_ = snapshots_.emplace(0, snapshot()).first->second.bytes;
     if (atEnd()) doActions();
 }
 
@@ -53,7 +55,10 @@ const std::shared_ptr<const Scene>& Timeline::scene() const {
     return recording_.start;
 }
 
-Timeline::Snapshot Timeline::snapshot() const { return {world_, done_, bytesOf(world_, *scene())}; }
+Timeline::Snapshot Timeline::snapshot() {
+    if (counted_ != scene()) counted_ = scene(), static_bytes_ = world_.bodies().empty() ? 0 : bytesOf(makeTree(*counted_));
+    return {world_, done_, bytesOf(world_) + static_bytes_};
+}
 
 void Timeline::restore(const Snapshot& from) {
     world_ = from.world, done_ = from.done;
@@ -103,11 +108,12 @@ void Timeline::record() {
     }
 }
 
-/// Keeps this moment if the last one kept is far enough away, in steps and in the time they took.
+/// Keeps this moment if the last one kept is far enough away, in steps or in the time they took.
 void Timeline::keepSnapshot() {
     if (target_ && *target_ - step() == options_.spacing) near_ = snapshot();
-    const std::uint64_t last_kept = std::prev(snapshots_.upper_bound(step()))->first;
-    if (spacing_ == 0 || step() - last_kept < spacing_ || stepping_s_ * kSnapshotShare < copying_s_) return;
+    const std::uint64_t since = step() - std::prev(snapshots_.upper_bound(step()))->first;
+    const bool slow = stepping_s_ > kSlow_s && spacing_ == options_.spacing;  // as long as there is memory for more
+    if (spacing_ == 0 || since == 0 || (since < spacing_ && !slow) || stepping_s_ * kSnapshotShare < copying_s_) return;
     const auto start = Clock::now();
     snapshot_bytes_ += snapshots_.emplace(step(), snapshot()).first->second.bytes;
     copying_s_ = secondsSince(start), stepping_s_ = 0;

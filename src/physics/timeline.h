@@ -63,7 +63,7 @@ private:
         std::size_t bytes = 0;
     };
 
-    Snapshot snapshot() const;
+    Snapshot snapshot();
     void restore(const Snapshot& from);
     const Snapshot& nearest(std::uint64_t step) const;
     void forward();
@@ -85,7 +85,9 @@ private:
     std::uint64_t spacing_;
     std::size_t snapshot_bytes_ = 0, recording_bytes_ = 0;
     std::size_t named_from_ = 0;                       // the first step that has the hashes of its bodies
-    double stepping_s_ = 0, copying_s_ = 0;            // since the last snapshot; of the last snapshot
+    std::shared_ptr<const Scene> counted_;             // the scene of which static_bytes_ is
+    std::size_t static_bytes_ = 0;                     // of its shapes, which each snapshot has
+    double stepping_s_ = 0, copying_s_ = 0;            // of steps since the last snapshot; of copying that
 };
 
 /// Makes a recorded run again, up to the first step that is not as recorded, and says which. `watch` sees each step.
