@@ -104,7 +104,7 @@ TEST_CASE("any moment that is gone to has the state it had, whatever was done, a
     }
 }
 
-TEST_CASE("a copy of step 100 goes on to the state of step 200") {  // tests/hard: state that is restored
+TEST_CASE("case 87: a copy of step 100, and a seek to it, go on to the state of step 200") {
     const Scene s = busy();
     Timeline whole(s);
     live(whole, s);
