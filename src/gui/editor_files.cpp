@@ -45,7 +45,8 @@ bool Editor::openRecording(const fs::path& path) {
     const std::size_t steps = loaded.recording.steps.size();
     simulation_.load(std::move(loaded.recording));
     before_ = scene_.objects;
-    say(false, fmt::format("Opened {}: {} steps. Playing makes them again and compares each.", path.filename().string(), steps) + warningsOf(loaded, path));
+    const std::string opened = fmt::format("Opened {}: {} steps. Playing makes them again and compares each.", path.filename().string(), steps);
+    say(false, opened + warningsOf(loaded, path));
     return true;
 }
 

@@ -85,12 +85,13 @@ void Editor::leaveFuture() {
     if (!timeline() || timeline()->atEnd()) return simulation_.discardFuture();
     const std::uint64_t at = timeline()->step(), steps = timeline()->last() - at;
     simulation_.discardFuture();
-    say(false, fmt::format("Something new was done at step {}: the {} step{} behind it {} gone.", at, steps, steps == 1 ? "" : "s",
-                           steps == 1 ? "is" : "are"));
+    const char* gone = steps == 1 ? "step behind it is" : "steps behind it are";
+    say(false, fmt::format("Something new was done at step {}: the {} {} gone.", at, steps, gone));
     const Scene& start = *timeline()->recording().start;
     for (std::size_t i = 0; before_ && i < start.objects.size(); i = subtreeEnd(start, i)) {
         const auto is = [&](const Object& o) { return o.id == start.objects[i].id; };
-        if (std::ranges::any_of(scene_.objects, is) && std::ranges::none_of(*before_, is)) append(start.objects, i, subtreeEnd(start, i), *before_);
+        if (std::ranges::any_of(scene_.objects, is) && std::ranges::none_of(*before_, is))
+            append(start.objects, i, subtreeEnd(start, i), *before_);
     }
 }
 

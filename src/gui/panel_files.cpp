@@ -85,8 +85,8 @@ void drawOpenRecording(Ui& ui) {
 
 void drawSaveRecording(Ui& ui) {
     const Timeline* timeline = ui.editor.timeline();
-    ui::remark(timeline && timeline->last() > 0 ? fmt::format("{} steps, a hash of the state after each, and what was done between them", timeline->last())
-                                                : std::string("No step was made yet."));
+    const std::uint64_t steps = timeline ? timeline->last() : 0;
+    ui::remark(steps > 0 ? fmt::format("{} steps, a hash of the state after each, and what was done between them", steps) : "No step was made yet.");
     if (saves(ui, kRecordings, ui.recordings)) ui.show("Save recording", false);
 }
 

@@ -39,7 +39,8 @@ void drawButtons(Editor& editor, const Timeline& timeline) {
 
 std::string momentText(const Timeline& timeline) {
     const PhysicsWorld& world = timeline.world();
-    std::string moment = fmt::format("step {} of {}   {:.3f} s   state {}", timeline.step(), timeline.last(), world.time_s(), world.stateText());
+    std::string moment = fmt::format("step {} of {}   {:.3f} s   state {}", timeline.step(), timeline.last(), world.time_s(),
+                                     world.stateText());
     if (timeline.divergence()) moment += fmt::format("   not as recorded from step {} on", timeline.divergence()->step);
     if (!timeline.target()) return moment;
     return fmt::format("going to step {}: {} are left   {}", *timeline.target(), *timeline.target() - timeline.step(), moment);

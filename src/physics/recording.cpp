@@ -94,7 +94,7 @@ std::optional<Divergence> compare(const Recording& recording, const PhysicsWorld
 }
 
 std::string describe(const Divergence& d) {
-    const std::string what = d.body.empty() ? std::string("the state is another, and no body is known to be") : fmt::format("body '{}' is another", d.body);
+    const std::string what = d.body.empty() ? "the state is another, and no body is known to be" : fmt::format("body '{}' is another", d.body);
     return fmt::format("at step {}: {} (state {:016x}, recorded {:016x})", d.step, what, d.found, d.recorded);
 }
 
@@ -121,7 +121,8 @@ std::optional<std::string> saveRecording(const std::filesystem::path& path, cons
             if (const auto why = refused(*action.scene)) return why;
     const std::string text = writeRecording(recording);
     if (text.size() > kMostRecordingBytes)
-        return fmt::format("{}: not saved: it would have {} bytes, more than a recording may, {}", path.string(), text.size(), kMostRecordingBytes);
+        return fmt::format("{}: not saved: it would have {} bytes, more than a recording may, {}", path.string(), text.size(),
+                           kMostRecordingBytes);
     return writeFile(path, text);
 }
 

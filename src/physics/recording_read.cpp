@@ -47,7 +47,9 @@ private:
     void numberObjects(Scene& scene);
     /// Holds the pieces of a line to be one of each key, and no others.
     bool keysAre(const Line& line, std::span<const std::string_view> keys, std::size_t needed);
-    void add(const Piece& piece, std::string message) { faults_.add(piece.value.at, fmt::format("'{}' is {}, {}", piece.key, shown(piece.value.text), message)); }
+    void add(const Piece& piece, std::string expected) {
+        faults_.add(piece.value.at, fmt::format("'{}' is {}, {}", piece.key, shown(piece.value.text), expected));
+    }
 
     text::Faults faults_;
     RecordingResult result_;
@@ -109,7 +111,10 @@ void Reader::record(const Line& line) {
         has_scene_ = true;
         beginScene(line);
     } else if (word == "step" || word == "end" || kind != actionKinds().end()) {
-        if (!has_scene_) return faults_.add(line.indent, fmt::format("'{}' stands before the scene, expected it behind it", word)), faults_.stop();
+        if (!has_scene_) {
+            faults_.add(line.indent, fmt::format("'{}' stands before the scene, expected it behind it", word));
+            return faults_.stop();
+        }
         if (word == "step") step(line);
         else if (word == "end") ended_ = keysAre(line, {}, 0);
         else action(line, *kind);
@@ -140,7 +145,8 @@ bool Reader::keysAre(const Line& line, std::span<const std::string_view> keys, s
     for (const Piece& piece : std::span(line.pieces).subspan(1)) {
         const auto at = static_cast<std::size_t>(std::ranges::find(keys, piece.key) - keys.begin());
         if (piece.key.empty() || at == keys.size())
-            faults_.add(piece.at, fmt::format("{} is not known here{}", shown(piece.key.empty() ? piece.value.text : piece.key), text::nearest(piece.key, keys)));
+            faults_.add(piece.at, fmt::format("{} is not known here{}", shown(piece.key.empty() ? piece.value.text : piece.key),
+                                              text::nearest(piece.key, keys)));
         else if (seen >> at & 1) faults_.add(piece.at, fmt::format("'{}' stands twice in this record, expected once", piece.key));
         else if (piece.value.quoted) faults_.add(piece.value.at, fmt::format("'{}' is text in quotes, expected none", piece.key));
         else seen |= std::uint64_t{1} << at;
@@ -175,7 +181,8 @@ void Reader::bodies(const Piece& piece, std::vector<std::uint32_t>& out) {
         const bool same = part == "-" && out.size() < before.size();
         const auto hash = same ? before[out.size()] : parseWhole<std::uint32_t>(part, 16);
         if (hash && (same || part.size() == 8)) return out.push_back(*hash), true;
-        faults_.add(piece.value.at + at, fmt::format("a body's hash is {}, expected 8 hexadecimal digits, or '-' for that of the step before", shown(part)));
+        faults_.add(piece.value.at + at,
+                    fmt::format("a body's hash is {}, expected 8 hexadecimal digits, or '-' for that of the step before", shown(part)));
         return false;
     });
     out.shrink_to_fit();
@@ -252,7 +259,8 @@ void Reader::endScene() {
 void Reader::numberObjects(Scene& scene) {
     if (ids_.empty()) return;
     if (ids_.size() != scene.objects.size())
-        return faults_.add(ids_place_, fmt::format("'ids' has {} numbers, expected one for each of the {} objects", ids_.size(), scene.objects.size()));
+        return faults_.add(ids_place_, fmt::format("'ids' has {} numbers, expected one for each of the {} objects", ids_.size(),
+                                                   scene.objects.size()));
     for (std::size_t i = 0; i < ids_.size(); ++i) scene.objects[i].id.value = ids_[i];
     std::ranges::sort(ids_);
     if (std::ranges::adjacent_find(ids_) != ids_.end()) faults_.add(ids_place_, "'ids' has a number twice, expected each once");
