@@ -16,15 +16,16 @@
 
 namespace mb::cli {
 
-Exit reportFaults(const LoadResult& loaded, const std::string& path, const Common& common) {
+Exit reportFaults(std::span<const Fault> warnings, std::span<const Fault> faults, const std::string& disk_fault, const std::string& path,
+                  const Common& common) {
     if (!common.quiet)
-        for (const Fault& fault : loaded.warnings) fmt::print(stderr, "{}\n", describe(fault, path, "warning"));
-    for (const Fault& fault : loaded.faults) fmt::print(stderr, "{}\n", describe(fault, path));
-    if (!loaded.disk_fault.empty()) {
-        fmt::print(stderr, "{}\n", loaded.disk_fault);
+        for (const Fault& fault : warnings) fmt::print(stderr, "{}\n", describe(fault, path, "warning"));
+    for (const Fault& fault : faults) fmt::print(stderr, "{}\n", describe(fault, path));
+    if (!disk_fault.empty()) {
+        fmt::print(stderr, "{}\n", disk_fault);
         return kDiskFault;
     }
-    return loaded.faults.empty() ? kDone : kInputFault;
+    return faults.empty() ? kDone : kInputFault;
 }
 
 Scene readSceneFile(const std::string& path, const std::vector<std::string>& settings, const Common& common) {

@@ -42,7 +42,7 @@ struct Command {
     /// Adds its options to `app` and returns what runs when it is chosen.
     std::function<void()> (*make)(CLI::App& app, Common& common);
 };
-extern const Command kEdit, kRender, kSimulate, kEval, kEffects, kAccuracy, kCheck, kBench;
+extern const Command kEdit, kRender, kSimulate, kReplay, kEval, kEffects, kAccuracy, kCheck, kBench;
 
 /// The scene of the file, with each `settings` KEY=VALUE applied. Prints the file's warnings unless told to be quiet, and
 /// its faults; a failure carries code 1, 2 (a setting) or 4.
@@ -52,7 +52,11 @@ Scene readSceneFile(const std::string& path, const std::vector<std::string>& set
 Camera cameraNamed(const Scene& scene, const std::string& name);
 
 /// Prints the faults (or the disk's fault) of a file on standard error; the code they mean.
-Exit reportFaults(const LoadResult& loaded, const std::string& path, const Common& common);
+Exit reportFaults(std::span<const Fault> warnings, std::span<const Fault> faults, const std::string& disk_fault, const std::string& path,
+                  const Common& common);
+template <class Loaded> Exit reportFaults(const Loaded& loaded, const std::string& path, const Common& common) {
+    return reportFaults(loaded.warnings, loaded.faults, loaded.disk_fault, path, common);
+}
 
 /// A current context with no window, or a failure with code 3.
 std::unique_ptr<Context> headlessContext();

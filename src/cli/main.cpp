@@ -12,7 +12,7 @@ namespace {
 
 using namespace mb::cli;
 
-const Command* const kCommands[] = {&kEdit, &kRender, &kSimulate, &kEval, &kEffects, &kAccuracy, &kCheck, &kBench};
+const Command* const kCommands[] = {&kEdit, &kRender, &kSimulate, &kReplay, &kEval, &kEffects, &kAccuracy, &kCheck, &kBench};
 
 /// A word in a command's place that is neither a command nor a file is taken for a mistyped command.
 void refuseUnknown(const std::string& word) {

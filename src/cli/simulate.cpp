@@ -3,7 +3,7 @@
 
 #include "core/effects/effect.h"
 #include "core/measure/timing.h"
-#include "physics/world.h"
+#include "physics/recording.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace mb::cli {
 namespace {
 
 struct Options {
-    std::string scene, trace;
+    std::string scene, trace, record;
     double seconds = 0;
     std::uint64_t every = 1;
     double dt = 0;
@@ -97,6 +97,7 @@ void run(const Options& options, const Common& common) {
         fmt::print(stderr, "{}: note: bodies overlap something by up to {:.3g} m at the start\n", options.scene, depth);
     Trace trace(options.trace);
     trace.add(world);
+    Recording recording{std::make_shared<const Scene>(scene), {}, {}};
     std::vector<double> step_ms;
     Progress progress("simulating", steps, common);
     for (std::uint64_t i = 1; i <= steps; ++i) {
@@ -104,9 +105,12 @@ void run(const Options& options, const Common& common) {
         world.step();
         step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - from).count());
         if (i % options.every == 0) trace.add(world);
+        if (!options.record.empty()) recording.steps.push_back(hashOf(world));
         progress.show(i);
     }
     trace.finish();
+    if (!options.record.empty())
+        if (const auto why = saveRecording(options.record, recording)) throw Failure{kDiskFault, *why};
     if (!common.quiet)
         for (const std::string& note : world.notes()) fmt::print(stderr, "{}: note: {}\n", options.scene, note);
 
@@ -128,6 +132,7 @@ std::function<void()> make(CLI::App& app, Common& common) {
     app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(within(1, 1000));
     app.add_option("--trace", options->trace, "a CSV file with a row for each body at each step");
     app.add_option("--every", options->every, "rows only for every Nth step")->check(within(1, 1e12));
+    app.add_option("--record", options->record, "a recording, which marchbox replay makes again and compares");
     app.add_flag("--json", options->json, "the answer is JSON with or without this");
     addSettings(app, options->settings);
     return [options, &common] { run(*options, common); };

@@ -14,8 +14,6 @@
 namespace mb {
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // bytes; the panels' text fields take no more
-
 Object startingPoint(const ShapeType& type) {
     Object o;
     o.type = &type, o.numbers = initialNumbers(type), o.name = type.name;
@@ -50,6 +48,14 @@ void unbody(Object& o) {
     const Object plain;
     for (const Key<Object>& key : keys<Object>())
         if (key.body) std::visit([&](auto member) { valueAt(o, member) = valueAt(plain, member); }, key.member);
+}
+
+/// Whether the two differ in nothing that a body could feel.
+bool onlyLooks(Object a, const Object& b) {
+    a.name = b.name, a.material = b.material;
+    Scene with_a, with_b;
+    with_a.objects.push_back(std::move(a)), with_b.objects.push_back(b);
+    return sameScene(with_a, with_b);
 }
 
 }  // namespace
@@ -89,10 +95,17 @@ Editor::Editor() {
     saved_ = scene_;
 }
 
-void Editor::edited(bool moves_bodies) {
+void Editor::edited(Change change) {
     ++edits_, ++revision_;
-    if (moves_bodies) simulation_.rebuild();
     if (message_.error) message_ = {};
+    if (change == Change::looks) return;
+    leaveFuture();
+    change == Change::bodies ? simulation_.rebuild() : simulation_.changeStatics();
+}
+
+/// Of an object that is added, removed or given other values, but for its looks.
+Editor::Change Editor::changeOf(std::size_t index) const {
+    return scene_.objects[topLevel(scene_, index)].isBody() ? Change::bodies : Change::statics;
 }
 
 bool Editor::refuse(std::string why) {
@@ -183,7 +196,7 @@ ObjectId Editor::addObject(const Object& draft, ObjectId parent) {
     const int index = static_cast<int>(*findObject(scene_, id));
     for (Object& child : children) insertObject(child, index);
     selected_ = id;
-    edited(true);
+    edited(changeOf(static_cast<std::size_t>(index)));
     return id;
 }
 
@@ -196,10 +209,14 @@ bool Editor::remove(ObjectId id) {
             return refuse(fmt::format("a {} needs {}: remove the {} itself", p.type->name,
                                       p.type->min_children == 1 ? "a child" : fmt::format("{} children", p.type->min_children), p.type->name));
     }
+    // A body is taken out of the run, which goes on without it.
+    if (simulation_.hasBody(id)) leaveFuture();
+    const Change change = simulation_.hasBody(id) ? Change::looks : changeOf(*index);
+    simulation_.remove(id);
     removeSubtree(scene_, *index);
     forget(id);
     if (!selection()) selected_ = {};
-    edited(true);
+    edited(change);
     return true;
 }
 
@@ -216,7 +233,7 @@ void Editor::clear() {
     scene_.objects.clear();
     if (before_) before_->clear();
     selected_ = {};
-    edited(true);
+    edited(Change::bodies);
 }
 
 bool Editor::setObject(std::size_t index, const Object& values) {
@@ -239,62 +256,18 @@ bool Editor::setObject(std::size_t index, const Object& values) {
                 for (int k = 0; k < 3; ++k)
                     if ((wanted.*member)[k] != (o.*member)[k]) (b.*member)[k] = (wanted.*member)[k];
         }
+    const Change before = onlyLooks(o, wanted) ? Change::looks : changeOf(index);
     o = std::move(wanted);
-    edited(true);
+    edited(before == Change::looks ? before : std::max(before, changeOf(index)));
     return true;
 }
-
-std::size_t Editor::addMaterial(Material draft) {
-    if (scene_.materials.size() >= Limits::materials)
-        return refuse(fmt::format("a scene holds at most {} materials", Limits::materials)), scene_.materials.size() - 1;
-    draft.name.resize(std::min(draft.name.size(), kLongestName));
-    if (draft.name.empty()) draft.name = "material";
-    draft.name = freeName(scene_.materials, draft.name, scene_.materials.size());
-    scene_.materials.push_back(std::move(draft));
-    edited(false);
-    return scene_.materials.size() - 1;
-}
-
-void Editor::setMaterial(std::size_t index, Material values) {
-    if (values.name.empty()) values.name = scene_.materials[index].name;
-    values.name.resize(std::min(values.name.size(), kLongestName));
-    values.name = freeName(scene_.materials, values.name, index);
-    scene_.materials[index] = std::move(values);
-    edited(false);
-}
-
-std::size_t Editor::addLight(Light draft) {
-    if (scene_.lights.size() >= Limits::lights)
-        return refuse(fmt::format("a scene holds at most {} lights", Limits::lights)), scene_.lights.size() - 1;
-    draft.name.resize(std::min(draft.name.size(), kLongestName));
-    draft.name = freeName(scene_.lights, draft.name, scene_.lights.size());
-    scene_.lights.push_back(std::move(draft));
-    edited(false);
-    return scene_.lights.size() - 1;
-}
-
-void Editor::setLight(std::size_t index, Light values) {
-    values.name.resize(std::min(values.name.size(), kLongestName));
-    values.name = freeName(scene_.lights, values.name, index);
-    scene_.lights[index] = std::move(values);
-    edited(false);
-}
-
-void Editor::removeLight(std::size_t index) {
-    scene_.lights.erase(scene_.lights.begin() + static_cast<std::ptrdiff_t>(index));
-    edited(false);
-}
-
-void Editor::setWorld(const World& values) { scene_.world = values, edited(true); }
-void Editor::setRender(const RenderKnobs& values) { scene_.render = values, edited(false); }
-void Editor::setPhysics(const PhysicsKnobs& values) { scene_.physics = values, edited(true); }
 
 void Editor::keepView() {
     Camera kept = orbit_.camera();
     if (scene_.cameras.empty()) scene_.cameras.emplace_back();
     kept.name = scene_.cameras.front().name;
     scene_.cameras.front() = kept;
-    edited(false);
+    edited(Change::looks);
     say(false, "The scene's camera now stands where you look from.");
 }
 

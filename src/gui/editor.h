@@ -16,6 +16,8 @@
 
 namespace mb {
 
+inline constexpr std::size_t kLongestName = 64;  // bytes; the panels' text fields take no more
+
 /// What the last command has to say; an error stays until something succeeds or it is dismissed.
 struct Message {
     bool error = false;
@@ -41,10 +43,16 @@ public:
     bool open(const std::filesystem::path& path);
     bool save();                                     // to path(); needs one
     bool saveAs(const std::filesystem::path& path);  // ".txt" is added to a name with no extension
-    /// Where the scenes are: the open file's folder, or ./saves if there is none.
+    /// Where the scenes and recordings are: the open file's folder, or ./saves if there is none.
     std::filesystem::path savesFolder() const;
     /// The names of the *.txt files there, sorted.
     std::vector<std::string> saves() const;
+
+    // Recordings of runs (editor_files.cpp), likewise; ".rec" is added to a name with no extension.
+    bool saveRecording(const std::filesystem::path& path);
+    /// Begins a recorded run again: the scene is the one at its start, and has no file.
+    bool openRecording(const std::filesystem::path& path);
+    std::vector<std::string> recordings() const;
 
     // Objects. The type of an object stays what it is; a name in use gets a number behind it.
     ObjectId selected() const { return selected_; }
@@ -95,8 +103,10 @@ public:
     // Time (editor_motion.cpp).
     const Simulation& simulation() const { return simulation_; }
     bool playing() const { return simulation_.playing; }
+    /// The run so far; null before the first step.
+    const Timeline* timeline() const { return simulation_.timeline(); }
     /// Whether the next advance() can change anything.
-    bool moving() const { return playing() && !simulation_.asleep(); }
+    bool moving() const { return (playing() && !simulation_.asleep()) || seeking(); }
     void play();
     void pause() { simulation_.playing = false; }
     /// The bodies as the next step finds them; null where the scene cannot be stepped.
@@ -104,6 +114,13 @@ public:
     /// The seed of the next throw; each later one adds 1.
     void seedThrows(std::uint64_t seed) { simulation_.throws = seed; }
     void step();
+    /// Goes to the moment after so many steps, at most the last one made, and pauses: the bodies are shown as they were, and
+    /// what does not move as well. What takes longer than a frame goes on in advance(). Playing from there makes the same
+    /// steps again, with all that was done; doing something new there discards them, and says so.
+    void seek(std::uint64_t step);
+    bool seeking() const { return simulation_.seeking(); }
+    void stepBack();
+    bool canStepBack() const { return simulation_.steps() > 0; }
     /// Puts the bodies back to where they were before the first step; whatever else was edited since stays.
     void reset();
     bool canReset() const { return before_.has_value(); }
@@ -119,16 +136,23 @@ public:
     void setKnobs(const Setting& setting, bool motion);
 
 private:
-    void edited(bool moves_bodies);
+    /// What an edit means to the run so far: nothing, shapes and knobs that change in it, or the begin of a new one.
+    enum class Change { looks, statics, bodies };
+    void edited(Change change);
+    Change changeOf(std::size_t index) const;
     bool refuse(std::string why);
     std::string whyInvalid(Object object) const;
     void insertObject(Object object, int parent);
     double surfaceBelow(double x, double z) const;
     bool readyToMove();
+    void leaveFuture();
+    void moved();
+    void begin(Scene scene, const std::filesystem::path& path);
+    std::vector<std::string> filesEndingIn(std::string_view ending) const;
     void forget(ObjectId id);
 
     Scene scene_;
-    std::filesystem::path path_;
+    std::filesystem::path path_, folder_ = "saves";  // folder_: where the files are while there is no path
     std::uint64_t revision_ = 1, edits_ = 0, saved_edits_ = 0;
     Scene saved_;  // the scene as it was read or written last
     Message message_;

@@ -1,4 +1,4 @@
-// The editor's time: play, pause, step, reset.
+// The editor's time: play, pause, step, back and forth, reset.
 #include "gui/editor.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,18 @@
 #include <algorithm>
 
 namespace mb {
+namespace {
+
+/// Appends the objects [begin, end) of a list, a top-level one with its children.
+void append(const std::vector<Object>& from, std::size_t begin, std::size_t end, std::vector<Object>& io_to) {
+    const int shift = static_cast<int>(io_to.size()) - static_cast<int>(begin);
+    for (std::size_t i = begin; i < end; ++i) {
+        io_to.push_back(from[i]);
+        if (from[i].parent != kNoParent) io_to.back().parent += shift;
+    }
+}
+
+}  // namespace
 
 /// Whether the scene can be stepped; remembers the objects before the first step.
 bool Editor::readyToMove() {
@@ -19,32 +31,73 @@ void Editor::play() {
 }
 
 const PhysicsWorld* Editor::bodies() {
-    return makeTree(scene_).fault.empty() ? &simulation_.ready(scene_) : nullptr;
+    return makeTree(scene_).fault.empty() ? &simulation_.ready(scene_).world() : nullptr;
 }
 
 void Editor::step() {
     if (!readyToMove()) return;
     simulation_.playing = false;
     simulation_.step(scene_);
-    ++revision_;
+    moved();
+}
+
+void Editor::seek(std::uint64_t step) {
+    if (!readyToMove()) return;
+    simulation_.playing = false;
+    simulation_.seek(scene_, step);
+    moved();
+}
+
+void Editor::stepBack() {
+    if (canStepBack()) seek(simulation_.steps() - 1);
 }
 
 void Editor::throwAbout() {
     if (!readyToMove()) return;
+    leaveFuture();
     simulation_.throwAbout(scene_);
     simulation_.playing = true;
-    ++revision_;
+    moved();
 }
 
 void Editor::advance(double seconds) {
-    if (!simulation_.playing) return;
+    if (!moving()) return;
     // An operator nobody can evaluate may have been added meanwhile.
     if (!readyToMove()) return pause();
-    if (simulation_.advance(scene_, seconds)) ++revision_;
+    if (simulation_.advance(scene_, seconds)) moved();
+}
+
+/// The scene shows another moment.
+void Editor::moved() {
+    ++revision_;
+    if (simulation_.tookShapes()) ++edits_;
     if (!selection()) selected_ = {};
+    if (const auto divergence = simulation_.divergenceToTell()) {
+        pause();
+        say(true, fmt::format("The run is not as it was {}.", describe(*divergence)));
+    } else if (const std::uint64_t steps = simulation_.equalStepsToTell()) {
+        say(false, fmt::format("All {} recorded steps were made again, each to the same state.", steps));
+    }
+}
+
+/// Something is done at this moment: the steps recorded behind it are void, and what was removed behind it is there to stay.
+void Editor::leaveFuture() {
+    if (!timeline() || timeline()->atEnd()) return simulation_.discardFuture();
+    const std::uint64_t at = timeline()->step(), steps = timeline()->last() - at;
+    simulation_.discardFuture();
+    const char* gone = steps == 1 ? "step behind it is" : "steps behind it are";
+    say(false, fmt::format("Something new was done at step {}: the {} {} gone.", at, steps, gone));
+    const Scene& start = *timeline()->recording().start;
+    for (std::size_t i = 0; before_ && i < start.objects.size(); i = subtreeEnd(start, i)) {
+        const auto is = [&](const Object& o) { return o.id == start.objects[i].id; };
+        if (std::ranges::any_of(scene_.objects, is) && std::ranges::none_of(*before_, is))
+            append(start.objects, i, subtreeEnd(start, i), *before_);
+    }
 }
 
 void Editor::reset() {
+    // What was edited since is of the present.
+    if (timeline() && !timeline()->atEnd() && timeline()->keepsEnd()) seek(timeline()->last());
     simulation_.stop();
     ++revision_;
     if (!before_) return;
@@ -57,13 +110,7 @@ void Editor::reset() {
             o.pos = before[i].pos, o.rot = before[i].rot, o.vel = before[i].vel, o.spin = before[i].spin;
             continue;
         }
-        // It left the world: it comes back with its children, at the end.
-        const int shift = static_cast<int>(scene_.objects.size()) - static_cast<int>(i);
-        for (std::size_t k = i; k < end; ++k) {
-            Object o = before[k];
-            if (o.parent != kNoParent) o.parent += shift;
-            scene_.objects.push_back(std::move(o));
-        }
+        append(before, i, end, scene_.objects);  // it left the world
     }
     // What was saved meanwhile may be the bodies as they had moved.
     if (!unsaved() && !sameScene(scene_, saved_)) ++edits_;

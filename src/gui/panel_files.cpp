@@ -9,50 +9,85 @@
 namespace mb {
 namespace {
 
-/// The scenes of the folder; returns whether one was chosen, which is then in `name`.
-bool fileList(const std::vector<std::string>& files, std::string& name) {
+/// What is opened and saved: scenes, or recordings of runs.
+struct Kind {
+    const char *many, *none, *ending;
+    std::vector<std::string> (Editor::*list)() const;
+    bool (Editor::*save)(const std::filesystem::path&);
+};
+constexpr Kind kScenes{"Scenes", "There is no scene here.", ".txt", &Editor::saves, &Editor::saveAs};
+constexpr Kind kRecordings{"Recordings", "There is no recording here.", ".rec", &Editor::recordings, &Editor::saveRecording};
+
+/// The files of the folder; whether one was chosen, which is then in `name`.
+bool fileList(Ui& ui, const Kind& kind, FileChoice& choice, std::string& name) {
+    if (ImGui::IsWindowAppearing()) choice.files = (ui.editor.*kind.list)();
     bool chosen = false;
     ImGui::BeginChild("files", {0, ImGui::GetTextLineHeightWithSpacing() * 9}, true);
-    if (files.empty()) ui::remark("There is no scene here.");
-    for (const std::string& file : files)
+    if (choice.files.empty()) ui::remark(kind.none);
+    for (const std::string& file : choice.files)
         if (ui::selectable(file.c_str(), file == name)) name = file, chosen = true;
     ImGui::EndChild();
     return chosen;
 }
 
-}  // namespace
-
-void drawOpen(Ui& ui) {
-    ui::remark(fmt::format("Scenes in {}", ui.editor.savesFolder().string()));
-    if (ImGui::IsWindowAppearing()) ui.files = ui.editor.saves();
-    fileList(ui.files, ui.file);
-    ImGui::BeginDisabled(std::ranges::find(ui.files, ui.file) == ui.files.end());
+/// Says whether the chosen file is to be opened.
+bool opens(Ui& ui, const Kind& kind, FileChoice& choice) {
+    ui::remark(fmt::format("{} in {}", kind.many, ui.editor.savesFolder().string()));
+    fileList(ui, kind, choice, choice.file);
+    ImGui::BeginDisabled(std::ranges::find(choice.files, choice.file) == choice.files.end());
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    const bool opens = ui::button("Open", nullptr, half);
+    const bool pressed = ui::button("Open", nullptr, half);
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (ui::button("Look again", "reads the folder anew", half)) ui.files = ui.editor.saves();
-    if (!opens) return;
-    const std::filesystem::path path = ui.editor.savesFolder() / ui.file;
-    ui.unlessUnsaved([&ui, path] {
-        if (!ui.editor.open(path)) return;
-        ui.show("Open", false);
+    if (ui::button("Look again", "reads the folder anew", half)) choice.files = (ui.editor.*kind.list)();
+    return pressed;
+}
+
+/// Says whether it was saved.
+bool saves(Ui& ui, const Kind& kind, FileChoice& choice) {
+    ui::remark(fmt::format("In {}", ui.editor.savesFolder().string()));
+    std::string chosen = choice.name;
+    if (fileList(ui, kind, choice, chosen)) choice.name = chosen;
+    const std::string tip = fmt::format("\"{}\" is added if it has no ending", kind.ending);
+    ui::text({"file name", "", tip}, choice.name);
+    const std::string full = choice.name.find('.') == std::string::npos ? choice.name + kind.ending : choice.name;
+    const bool there = std::ranges::find(choice.files, full) != choice.files.end();
+    ImGui::BeginDisabled(choice.name.empty());
+    const bool pressed = ui::button(there ? "Replace" : "Save", there ? "the file that is there" : nullptr, -1);
+    ImGui::EndDisabled();
+    return pressed && (ui.editor.*kind.save)(ui.editor.savesFolder() / choice.name);
+}
+
+void openUnlessUnsaved(Ui& ui, bool (Editor::*open)(const std::filesystem::path&), const std::string& file, const char* panel) {
+    const std::filesystem::path path = ui.editor.savesFolder() / file;
+    ui.unlessUnsaved([&ui, open, path, panel] {
+        if (!(ui.editor.*open)(path)) return;
+        ui.show(panel, false);
         ui.folded.clear(), ui.shown_material = ui.shown_light = 0, ui.draft.material = kNoMaterial;
     });
 }
 
+}  // namespace
+
+void drawOpen(Ui& ui) {
+    if (opens(ui, kScenes, ui.scenes)) openUnlessUnsaved(ui, &Editor::open, ui.scenes.file, "Open");
+}
+
 void drawSaveAs(Ui& ui) {
-    ui::remark(fmt::format("In {}", ui.editor.savesFolder().string()));
-    if (ImGui::IsWindowAppearing()) ui.files = ui.editor.saves();
-    std::string chosen = ui.file_name;
-    if (fileList(ui.files, chosen)) ui.file_name = chosen;
-    ui::text({"file name", "", "\".txt\" is added if it has no ending"}, ui.file_name);
-    std::string full = ui.file_name.find('.') == std::string::npos ? ui.file_name + ".txt" : ui.file_name;
-    const bool there = std::ranges::find(ui.files, full) != ui.files.end();
-    ImGui::BeginDisabled(ui.file_name.empty());
-    const bool saves = ui::button(there ? "Replace" : "Save", there ? "the file that is there" : nullptr, -1);
-    ImGui::EndDisabled();
-    if (saves && ui.editor.saveAs(ui.editor.savesFolder() / ui.file_name)) ui.show("Save as", false);
+    if (saves(ui, kScenes, ui.scenes)) ui.show("Save as", false);
+}
+
+void drawOpenRecording(Ui& ui) {
+    if (!opens(ui, kRecordings, ui.recordings)) return;
+    openUnlessUnsaved(ui, &Editor::openRecording, ui.recordings.file, "Open recording");
+    if (ui.editor.timeline()) ui.show("Timeline");
+}
+
+void drawSaveRecording(Ui& ui) {
+    const Timeline* timeline = ui.editor.timeline();
+    const std::uint64_t steps = timeline ? timeline->last() : 0;
+    ui::remark(steps > 0 ? fmt::format("{} steps, a hash of the state after each, and what was done between them", steps) : "No step was made yet.");
+    if (saves(ui, kRecordings, ui.recordings)) ui.show("Save recording", false);
 }
 
 }  // namespace mb

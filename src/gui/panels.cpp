@@ -10,14 +10,16 @@
 namespace mb {
 namespace {
 
-void askOpen(Ui& ui) { ui.files = ui.editor.saves(), ui.show("Open"); }
-void askSaveAs(Ui& ui) { ui.file_name = ui.editor.path().stem().string(), ui.show("Save as"); }
+void askOpen(Ui& ui) { ui.scenes.files = ui.editor.saves(), ui.show("Open"); }
+void askSaveAs(Ui& ui) { ui.scenes.name = ui.editor.path().stem().string(), ui.show("Save as"); }
+void askSaveRecording(Ui& ui) { ui.recordings.name = ui.editor.path().stem().string(), ui.show("Save recording"); }
 void save(Ui& ui) { ui.editor.path().empty() ? askSaveAs(ui) : static_cast<void>(ui.editor.save()); }
 void exit(Ui& ui) { ui.unlessUnsaved([&ui] { ui.quit = true; }); }
 void playOrPause(Ui& ui) { ui.editor.playing() ? ui.editor.pause() : ui.editor.play(); }
 
 bool hasSelection(const Ui& ui) { return ui.editor.selection().has_value(); }
 bool hasObjects(const Ui& ui) { return !ui.editor.scene().objects.empty(); }
+bool canStepBack(const Ui& ui) { return ui.editor.canStepBack(); }
 bool canReset(const Ui& ui) { return ui.editor.canReset(); }
 
 const Entry kEntries[] = {
@@ -45,10 +47,17 @@ const Entry kEntries[] = {
      .run = playOrPause},
     {.menu = "Motion", .name = "Step", .shortcut = {GLFW_KEY_PERIOD, false, ".", true}, .tip = "one step of the physics",
      .run = [](Ui& ui) { ui.editor.step(); }},
+    {.menu = "Motion", .name = "Step back", .shortcut = {GLFW_KEY_COMMA, false, ",", true}, .tip = "to the moment one step before",
+     .run = [](Ui& ui) { ui.editor.stepBack(); }, .enabled = canStepBack},
     {.menu = "Motion", .name = "Reset", .shortcut = {GLFW_KEY_R, false, "R"}, .tip = "the bodies go back to where they started",
      .run = [](Ui& ui) { ui.editor.reset(); }, .enabled = canReset},
     {.menu = "Motion", .name = "Throw about", .shortcut = {GLFW_KEY_J, false, "J"}, .tip = "gives every body a push",
      .run = [](Ui& ui) { ui.editor.throwAbout(); }},
+    {.menu = "Motion", .name = "Timeline", .shortcut = {GLFW_KEY_F4, false, "F4"}, .tip = "back and forth through all steps made",
+     .draw = drawTimeline, .place = Place::below_picture, .height = 88},
+    {.menu = "Motion", .name = "Save recording", .tip = "the run so far, to be made again and compared step by step", .draw = drawSaveRecording,
+     .run = askSaveRecording, .width = 380},
+    {.menu = "Motion", .name = "Open recording", .tip = "makes a recorded run again", .draw = drawOpenRecording, .width = 380},
 
     {.menu = "Settings", .name = "Controls", .shortcut = {GLFW_KEY_F1, false, "F1"}, .tip = "what the mouse and the keys do",
      .draw = drawControls, .width = 430},
@@ -69,15 +78,25 @@ constexpr MouseControl kMouse[] = {
     {"Ctrl+click on a slider", "types a number into it"},
 };
 
-/// Where a docked panel goes: the column on the right, shared by those of its panels that are open.
+bool inColumn(const Entry& entry) { return entry.place == Place::column_top || entry.place == Place::column_bottom; }
+
+bool anyOpen(const Ui& ui, bool (*wanted)(const Entry&)) {
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (ui.open[i] && wanted(entries()[i])) return true;
+    return false;
+}
+
+/// Where a docked panel goes: below the picture, or in the column on the right, shared by those of its panels that are open.
 void placeDocked(const Ui& ui, const Entry& entry) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float top = ui.picture_corner.y, height = ui.picture_size.y, left = ui.picture_corner.x + ui.picture_size.x;
-    bool above = false, below = false;
-    for (std::size_t i = 0; i < entries().size(); ++i) {
-        above |= ui.open[i] && entries()[i].place == Place::column_top;
-        below |= ui.open[i] && entries()[i].place == Place::column_bottom;
+    const float top = ui.picture_corner.y, height = std::max(screen.y - 2 * top, 1.0f), left = ui.picture_corner.x + ui.picture_size.x;
+    if (entry.place == Place::below_picture) {
+        const float below = top + ui.picture_size.y;
+        ImGui::SetNextWindowPos({ui.picture_corner.x, below});
+        return ImGui::SetNextWindowSize({std::max(ui.picture_size.x, 1.0f), std::max(top + height - below, 1.0f)});
     }
+    const bool above = anyOpen(ui, [](const Entry& e) { return e.place == Place::column_top; });
+    const bool below = anyOpen(ui, [](const Entry& e) { return e.place == Place::column_bottom; });
     const float split = above && below ? 0.40f : 1.0f;
     const bool is_top = entry.place == Place::column_top;
     const float y = is_top || !above ? top : top + height * split, h = is_top ? height * split : height * (above ? 1 - split : 1.0f);
@@ -129,15 +148,17 @@ void drawPanel(Ui& ui, const Entry& entry, std::size_t i) {
     if (!stays) ui.open[i] = false;
 }
 
-/// The picture gets what the bars and the column leave.
+/// The picture gets what the bars, the column and the panel below it leave.
 void layOut(Ui& ui) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float bar = ImGui::GetFrameHeight(), scale = ImGui::GetFontSize() / 15;
-    bool column = false;
-    for (std::size_t i = 0; i < entries().size(); ++i) column |= ui.open[i] && entries()[i].place != Place::floating;
-    const float width = column ? std::min(340 * scale, screen.x / 2) : 0;
+    const float width = anyOpen(ui, inColumn) ? std::min(340 * scale, screen.x / 2) : 0;
+    const float high = std::max(screen.y - 2 * bar, 0.0f);
+    float strip = 0;
+    for (std::size_t i = 0; i < entries().size(); ++i)
+        if (ui.open[i] && entries()[i].place == Place::below_picture) strip = std::min(entries()[i].height * scale, high / 2);
     ui.picture_corner = {0, bar};
-    ui.picture_size = {std::max(screen.x - width, 0.0f), std::max(screen.y - 2 * bar, 0.0f)};
+    ui.picture_size = {std::max(screen.x - width, 0.0f), high - strip};
 }
 
 }  // namespace

@@ -68,6 +68,12 @@ struct AccuracyMemory {
     std::string picked;                   // what was, in words; empty: the slider was not moved yet
 };
 
+/// What a panel of files remembers.
+struct FileChoice {
+    std::vector<std::string> files;
+    std::string file, name;  // the one to open; the one to save as
+};
+
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
 struct Ui {
@@ -90,8 +96,7 @@ struct Ui {
     Material new_material{.name = "material"};
     Light new_light{.name = "light", .pos = {0, 5, 0}};
     int shown_material = 0, shown_light = 0;
-    std::vector<std::string> files;
-    std::string file, file_name;
+    FileChoice scenes, recordings;
     std::set<std::uint32_t> folded;    // operators whose children the tree hides
     ObjectId listed;                   // the selection the tree has last shown
     bool attributes_to_top = false;
@@ -124,7 +129,7 @@ struct Shortcut {
     bool repeats = false;  // while it is held
 };
 
-enum class Place { floating, column_top, column_bottom };
+enum class Place { floating, column_top, column_bottom, below_picture };
 
 /// One row of the interface: a panel if it draws, else a command that runs.
 struct Entry {
@@ -136,7 +141,7 @@ struct Entry {
     bool (*enabled)(const Ui&) = nullptr;
     Place place = Place::floating;
     bool at_start = false;
-    float width = 360, height = 0;  // of a floating panel at first; height 0: as high as its contents
+    float width = 360, height = 0;  // of a floating panel at first; height 0: as high as its contents. One below the picture has its height
 };
 std::span<const Entry> entries();
 /// What the mouse does, one line each, for the list of controls.
@@ -159,6 +164,9 @@ void drawLights(Ui& ui);
 void drawCamera(Ui& ui);
 void drawOpen(Ui& ui);
 void drawSaveAs(Ui& ui);
+void drawOpenRecording(Ui& ui);
+void drawSaveRecording(Ui& ui);
+void drawTimeline(Ui& ui);
 void drawControls(Ui& ui);
 void drawDebug(Ui& ui);
 void drawConstants(Ui& ui);

@@ -1,27 +1,63 @@
 #include "gui/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <unordered_map>
 
 namespace mb {
+namespace {
 
-PhysicsWorld& Simulation::ready(const Scene& scene) {
-    if (!world_) world_.emplace(scene);
-    return *world_;
+/// Puts the shapes, the knobs and what of the world the bodies feel into a scene. How things look and are called stays as it is.
+void takeShapes(const Scene& from, Scene& io_scene) {
+    std::unordered_map<std::uint32_t, const Object*> now;
+    for (const Object& o : io_scene.objects) now[o.id.value] = &o;
+    std::vector<Object> objects = from.objects;
+    for (Object& o : objects)
+        if (const auto same = now.find(o.id.value); same != now.end()) o.name = same->second->name, o.material = same->second->material;
+    io_scene.objects = std::move(objects);
+    io_scene.physics = from.physics;
+    for (const auto felt : kFelt) io_scene.world.*felt = from.world.*felt;
+}
+
+}  // namespace
+
+Timeline& Simulation::ready(const Scene& scene) {
+    if (!timeline_) {
+        timeline_.emplace(scene);
+        shown_ = timeline_->scene(), shown_step_ = 0, told_ = false;
+    } else if (changed_) {
+        timeline_->act(changingStatics(scene));
+        shown_ = timeline_->scene();
+    }
+    changed_ = false;
+    return *timeline_;
+}
+
+/// Makes the scene show the moment the timeline stands at.
+void Simulation::show(Scene& scene) {
+    const bool other = timeline_->scene() != shown_;
+    // Bodies that left the world since are there again.
+    if (other || timeline_->step() < shown_step_) takeShapes(*timeline_->scene(), scene);
+    timeline_->world().writeTo(scene);
+    took_shapes_ |= other;
+    shown_ = timeline_->scene(), shown_step_ = timeline_->step();
 }
 
 bool Simulation::advance(Scene& scene, double seconds) {
+    if (!playing && !seeking()) return false;
+    ready(scene);
+    if (seeking()) {
+        timeline_->arrive(kMostSeconds);
+        return show(scene), true;
+    }
     if (!playing) return false;
-    using Clock = std::chrono::steady_clock;
     const double dt = scene.physics.dt;
     owed_ += std::clamp(seconds, 0.0, 1.0);
     int made = 0;
-    const Clock::time_point start = Clock::now();
-    const auto late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > kMostSeconds; };
-    ready(scene);
+    const auto start = std::chrono::steady_clock::now();
+    const auto late = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > kMostSeconds; };
     while (owed_ >= dt && made < kMostSteps && !asleep() && (made == 0 || !late())) {
-        world_->step();
+        timeline_->advance();
         owed_ -= dt, ++made;
     }
     if (asleep()) owed_ = 0;
@@ -29,19 +65,55 @@ bool Simulation::advance(Scene& scene, double seconds) {
     const double dropped = owed_ >= dt ? owed_ - std::fmod(owed_, dt) : 0;
     owed_ -= dropped;
     const double reached = made * dt / std::max(made * dt + dropped, 1e-9);
-    if (made > 0) ratio_ += 0.2 * (reached - ratio_), steps_ += static_cast<std::uint64_t>(made), world_->writeTo(scene);
+    if (made > 0) ratio_ += 0.2 * (reached - ratio_), show(scene);
     return made > 0;
 }
 
 void Simulation::step(Scene& scene) {
-    ready(scene).step();
-    ++steps_;
-    world_->writeTo(scene);
+    ready(scene).advance();
+    show(scene);
 }
 
 void Simulation::throwAbout(Scene& scene) {
-    ready(scene).throwAbout(throws++, kThrowSpeed);
-    world_->writeTo(scene);
+    ready(scene).act(throwing(throws++, kThrowSpeed));
+    show(scene);
+}
+
+void Simulation::seek(Scene& scene, std::uint64_t step) {
+    ready(scene).aim(step);
+    if (seeking()) timeline_->arrive(kMostSeconds);
+    show(scene);
+}
+
+void Simulation::discardFuture() {
+    if (timeline_) timeline_->discardFuture();
+    loaded_ = 0;
+}
+
+bool Simulation::hasBody(ObjectId object) const {
+    return timeline_ && std::ranges::any_of(timeline_->world().bodies(), [&](const Body& b) { return b.object == object; });
+}
+
+void Simulation::remove(ObjectId body) {
+    if (hasBody(body)) timeline_->act(removing(body));
+}
+
+void Simulation::load(Recording recording) {
+    stop();
+    loaded_ = recording.steps.size();
+    timeline_.emplace(std::move(recording));
+    shown_ = timeline_->scene(), shown_step_ = 0;
+}
+
+std::optional<Divergence> Simulation::divergenceToTell() {
+    if (!timeline_ || !timeline_->divergence() || told_) return {};
+    told_ = true, loaded_ = 0;
+    return timeline_->divergence();
+}
+
+std::uint64_t Simulation::equalStepsToTell() {
+    if (loaded_ == 0 || timeline_->step() < loaded_) return 0;
+    return std::exchange(loaded_, 0);
 }
 
 }  // namespace mb

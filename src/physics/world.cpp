@@ -2,6 +2,7 @@
 
 #include "core/effects/effect.h"
 #include "physics/hash.h"
+#include "physics/quick_hash.h"
 #include "physics/random.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,14 @@ bool shorten(glm::dvec3& io_v, double most) {
     if (largest <= most / length) return false;
     io_v = unit * (most / length);
     return true;
+}
+
+template <class Hash> void addState(Hash& io_hash, const Body& b) {
+    io_hash.add(std::uint64_t{b.object.value});
+    io_hash.add(b.position), io_hash.add(b.velocity), io_hash.add(b.spin), io_hash.add(b.orientation);
+    io_hash.add(b.radius), io_hash.add(b.inverse_mass);
+    for (int i = 0; i < 3; ++i) io_hash.add(b.inverse_inertia[i]);
+    io_hash.add(static_cast<std::uint64_t>(b.awake)), io_hash.add(static_cast<std::uint64_t>(b.still));
 }
 
 }  // namespace
@@ -207,18 +216,18 @@ std::uint64_t PhysicsWorld::stateHash() const {
     hash.add(steps_), hash.add(static_cast<std::uint64_t>(removed_));
     hash.add(knobs_.dt), hash.add(static_cast<std::uint64_t>(knobs_.substeps)), hash.add(static_cast<std::uint64_t>(knobs_.iterations));
     hash.add(knobs_.push_out), hash.add(knobs_.sleep_speed);
-    for (const Body& b : bodies_) {
-        hash.add(std::uint64_t{b.object.value});
-        hash.add(b.position), hash.add(b.velocity), hash.add(b.spin), hash.add(b.orientation);
-        hash.add(b.radius), hash.add(b.inverse_mass);
-        for (int i = 0; i < 3; ++i) hash.add(b.inverse_inertia[i]);
-        hash.add(static_cast<std::uint64_t>(b.awake)), hash.add(static_cast<std::uint64_t>(b.still));
-    }
+    for (const Body& b : bodies_) addState(hash, b);
     for (const Kept& k : kept_) {
         hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
         hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag);
     }
     memory_.addTo(hash);
+    return hash.value();
+}
+
+std::uint64_t PhysicsWorld::bodyHash(std::size_t body) const {
+    QuickHash hash;
+    addState(hash, bodies_[body]);
     return hash.value();
 }
 

@@ -81,7 +81,7 @@ Pfm readPfm(const std::string& path) {
 
 TEST_CASE("help and version; a command line at fault ends with 2") {
     const Scratch scratch;
-    for (const char* command : {"", "edit", "render", "simulate", "eval", "effects", "check", "bench", "bench render", "bench effects"}) {
+    for (const char* command : {"", "edit", "render", "simulate", "replay", "eval", "effects", "check", "bench", "bench render", "bench effects"}) {
         CAPTURE(command);
         const Ran help = run(scratch, std::string(command) + " --help");
         CHECK(help.code == 0);
@@ -97,7 +97,7 @@ TEST_CASE("help and version; a command line at fault ends with 2") {
           "render " + scene + " -o x_%04d.png", "render " + scene + " -o x_%04d.mp4 --frames 2", "render " + scene + " -o x.png --at nan",
           "render " + scene + " -o x.png --size 99999x9", "simulate " + scene + " --seconds nan", "simulate " + scene + " --seconds 1 --dt nan",
           std::string("bench"), std::string("bench nothing"), std::string("bench render --only nonsense"), std::string("bench render --rounds 4"), std::string("bench render --quick --seed 4294967296"),
-          std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("bench effects --only seed"), std::string("bench effects --rounds 4"), std::string("accuracy"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
+          std::string("bench render --quick --size 0x4"), std::string("bench render extra"), std::string("bench effects --only seed"), std::string("bench effects --rounds 4"), std::string("accuracy"), std::string("replay"), std::string("rendr"), "simulate " + scene, "simulate " + scene + " --seconds -1", "simulate " + scene + " --seconds 1e300", "eval " + scene,
           std::string("--nonsense")}) {
         CAPTURE(arguments);
         const Ran ran = run(scratch, arguments);
@@ -242,6 +242,47 @@ TEST_CASE("simulate prints one line of JSON, and a trace whose last row is the e
     const auto state = [&](const std::string& more) { return nlohmann::json::parse(run(scratch, "simulate " + scene + more).out)["state"]; };
     CHECK(state(" --seconds 2") == state(" --seconds 2"));
     CHECK(state(" --seconds 2") != state(" --seconds 2.5"));
+}
+
+TEST_CASE("a recorded run is made again; where it differs, step and body are named") {
+    const Scratch scratch;
+    const std::string scene = write(scratch, "s.txt", kScene), file = scratch / "r.rec";
+    const Ran simulated = run(scratch, "simulate " + scene + " --seconds 2 --dt 0.01 --set restitution=0.3 --record " + file);
+    REQUIRE(simulated.code == 0);
+    const auto json = [&](const std::string& recording) { return nlohmann::json::parse(run(scratch, "replay --json " + recording).out); };
+    const Ran same = run(scratch, "replay " + file);
+    CHECK(same.code == 0);
+    CHECK(same.out.find(file + ": equal: 200 steps") == 0);
+    CHECK(json(file)["equal"] == true);
+    CHECK(json(file)["state"] == nlohmann::json::parse(simulated.out)["state"]);
+
+    const std::string text = read(file);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        const std::size_t at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        return write(scratch, "changed.rec", std::string(text).replace(at, from.size(), to));
+    };
+    const std::string pushed = changed("mass:1", "mass:1 vel:0,1e-9,0");
+    const Ran other = run(scratch, "replay " + pushed);
+    CHECK(other.code == 1);
+    CHECK(other.err.find(pushed + ": diverged at step 1: body 'ball' is another") != std::string::npos);
+    CHECK(json(pushed)["equal"] == false);
+    CHECK(json(pushed)["step"] == 1);
+    CHECK(json(pushed)["body"] == "ball");
+    const std::size_t hash = text.find("step n:120 state:") + 17;
+    const Ran flipped = run(scratch, "replay " + changed(text.substr(hash, 16), (text[hash] == '0' ? "1" : "0") + text.substr(hash + 1, 15)));
+    CHECK(flipped.code == 1);
+    CHECK(flipped.err.find("diverged at step 120: ") != std::string::npos);
+
+    const Ran bad = run(scratch, "replay " + changed("radius:0.5", "radius:zero"));
+    CHECK(bad.code == 1);
+    CHECK(bad.err.find("changed.rec:") != std::string::npos);
+    CHECK(bad.err.find(": error: 'radius' is 'zero'") != std::string::npos);
+    const Ran cut = run(scratch, "replay " + write(scratch, "cut.rec", text.substr(0, text.size() / 2)));
+    CHECK(cut.code == 1);
+    CHECK(cut.err.find(": error: ") != std::string::npos);
+    CHECK(run(scratch, "replay " + scratch / "missing.rec").code == 4);
+    CHECK(run(scratch, "simulate " + scene + " --seconds 0.1 --record " + scratch / "no/such/folder.rec").code == 4);
 }
 
 TEST_CASE("eval agrees with itself on both processors") {

@@ -39,7 +39,7 @@ struct Monkey {
             break;
         }
         case 4: {
-            constexpr int kKeys[] = {GLFW_KEY_SPACE, GLFW_KEY_J, GLFW_KEY_R, GLFW_KEY_PERIOD, GLFW_KEY_ESCAPE, GLFW_KEY_DELETE, GLFW_KEY_ENTER,
+            constexpr int kKeys[] = {GLFW_KEY_SPACE, GLFW_KEY_J, GLFW_KEY_R, GLFW_KEY_PERIOD, GLFW_KEY_COMMA, GLFW_KEY_ESCAPE, GLFW_KEY_DELETE, GLFW_KEY_ENTER,
                                      GLFW_KEY_TAB, GLFW_KEY_BACKSPACE, GLFW_KEY_INSERT, GLFW_KEY_F1};
             hands.key(kKeys[below(std::size(kKeys))]);
             break;
@@ -73,7 +73,7 @@ TEST_CASE("some thousand random events leave a scene that saves and reads back e
     std::filesystem::current_path(folder);
     {
         Hands hands;
-        for (const char* panel : {"Add object", "Materials", "Lights", "Constants", "Picture", "Debug"}) hands.ui.show(panel);
+        for (const char* panel : {"Add object", "Materials", "Lights", "Constants", "Picture", "Debug", "Timeline"}) hands.ui.show(panel);
         Monkey monkey{hands, std::mt19937_64{20}};
         for (int i = 0; i < kEvents; ++i) {
             monkey.act();

@@ -1,4 +1,4 @@
-// Scenes as files. Reading never waits for a writer.
+// Files read whole, and scenes as files.
 #include "core/scene/descriptor.h"
 #include "core/scene/file.h"
 #include "core/scene/keys.h"
@@ -24,22 +24,28 @@ bool readAll(int fd, std::size_t limit, std::string& out) {
 
 }  // namespace
 
-LoadResult loadScene(const fs::path& path) {
-    LoadResult result;
+FileText readFile(const fs::path& path, std::size_t most) {
+    FileText result;
     Descriptor file;
     file.open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);  // a pipe without a writer would wait
     struct stat info{};
-    if (!file || ::fstat(file.get(), &info) != 0) {
+    if (!file || ::fstat(file.get(), &info) != 0)
         result.disk_fault = fault(path, "cannot read", errno);
-    } else if (!S_ISREG(info.st_mode)) {
+    else if (!S_ISREG(info.st_mode))
         result.disk_fault = fmt::format("{}: cannot read: it is {}, expected a file", path.string(), kindOf(info.st_mode));
-    } else if (info.st_size > static_cast<off_t>(Limits::file_bytes)) {
-        result.faults.push_back({1, 1, fmt::format("the file has {} bytes, expected at most {} (64 MiB)", info.st_size, Limits::file_bytes)});
-    } else if (std::string bytes; readAll(file.get(), Limits::file_bytes, bytes)) {
-        static_cast<ReadResult&>(result) = readScene(bytes);
-    } else {
+    else if (info.st_size > static_cast<off_t>(most))
+        result.fault = fmt::format("the file has {} bytes, expected at most {} ({} MiB)", info.st_size, most, most >> 20);
+    else if (!readAll(file.get(), most, result.bytes))
         result.disk_fault = fault(path, "cannot read", errno);
-    }
+    return result;
+}
+
+LoadResult loadScene(const fs::path& path) {
+    FileText file = readFile(path, Limits::file_bytes);
+    LoadResult result;
+    if (!file.disk_fault.empty()) result.disk_fault = std::move(file.disk_fault);
+    else if (!file.fault.empty()) result.faults.push_back({1, 1, std::move(file.fault)});
+    else static_cast<ReadResult&>(result) = readScene(file.bytes);
     return result;
 }
 
