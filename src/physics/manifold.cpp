@@ -11,8 +11,9 @@ namespace {
 constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
-constexpr double kSharp = 0.9;              // of a cone's cosine: less is an edge or a corner
 constexpr std::array kInwards{0.02, 0.08, 0.3};  // of the spacing: how far inside a sharp point its partner's face is read
+constexpr double kLevel = 1e-4;             // a slope that is none
+constexpr double kSloping = 0.02;           // one that may be a flat face's
 constexpr double kBeside = 0.01;            // of the spacing
 constexpr double kCone = 0.1;               // by which a contact's normal may leave the cone of the surface's own
 constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
@@ -53,7 +54,7 @@ public:
 private:
     const Placed& asked(const Candidate& c) const { return c.of_a ? others_[c.other] : a_; }
     const Placed& owner(const Candidate& c) const { return c.of_a ? a_ : others_[c.other]; }
-    static bool isSharp(const Candidate& c) { return c.from->cosine < kSharp; }
+    static bool isSharp(const Candidate& c) { return c.from->sharp; }
     double spacingOf(const Candidate& c) const { return owner(c).solid->points.spacing(); }
 
     double fieldOf(const Placed& p, glm::dvec3 at) const { return ++evaluations_, p.solid->at(p.pose.fromWorld(at)); }
@@ -190,27 +191,38 @@ private:
         for (const std::size_t k : picked) out.push_back(all[k]);
     }
 
-    /// Moves the point along its own solid's surface to where the other's field is least; a corner stays.
+    /// The way down: from a place on its own solid along the surface to where the other's field is less; its length is the
+    /// sine of the angle between the surfaces.
+    glm::dvec3 downhill(const Candidate& c, const Slope& there) const {
+        const Slope here = slopeOf(owner(c), c.at);
+        const double l2 = glm::dot(here.gradient, here.gradient);
+        return l2 > 1e-6 ? (glm::dot(there.gradient, here.gradient) / l2) * here.gradient - there.gradient : glm::dvec3{0};
+    }
+
+    /// Moves the point along its own solid's surface to where the other's field is least. A corner stays; and so does a point on
+    /// the rim of a flat place that hardly slopes: what it stands on is that rim, not the far side.
     void refine(Candidate& io_c) const {
-        const Placed& mine = owner(io_c);
         Slope there = otherAt(io_c, io_c.at, io_c.inwards);
+        glm::dvec3 along = downhill(io_c, there);
         double stride = 0.25 * spacingOf(io_c);
         for (int i = 0; i < 12 && stride > 1e-4 * spacingOf(io_c); ++i) {
-            const Slope here = slopeOf(mine, io_c.at);
-            const double l2 = glm::dot(here.gradient, here.gradient);
-            if (!(l2 > 1e-6)) break;
-            const glm::dvec3 along = (glm::dot(there.gradient, here.gradient) / l2) * here.gradient - there.gradient;
             const double slant = glm::length(along);
-            if (slant < 1e-4) break;
-            glm::dvec3 next = io_c.at + (stride / slant) * along;
+            if (slant < kLevel) break;
+            Candidate next = io_c;
+            next.at += (stride / slant) * along;
             for (int round = 0; round < 2; ++round) {
-                const Slope s = slopeOf(mine, next);
+                const Slope s = slopeOf(owner(next), next.at);
                 const double n2 = glm::dot(s.gradient, s.gradient);
-                if (n2 > 1e-6) next -= (s.distance / n2) * s.gradient;
+                if (n2 > 1e-6) next.at -= (s.distance / n2) * s.gradient;
             }
-            const Slope lower = otherAt(io_c, next, io_c.inwards);
-            if (lower.distance < there.distance - 1e-9 * stride) io_c.at = next, there = lower;
-            else stride *= 0.25;
+            const Slope lower = otherAt(next, next.at, next.inwards);
+            if (lower.distance < there.distance - 1e-9 * stride) {
+                const glm::dvec3 on = downhill(next, lower);
+                if (slant < kSloping && glm::length(on) > 0.9 * slant) break;
+                io_c = next, there = lower, along = on;
+            } else {
+                stride *= 0.25;
+            }
         }
         setTo(io_c, there);
     }

@@ -12,6 +12,7 @@ namespace {
 constexpr int kCells = 10;        // along the longest side of the box
 constexpr int kFewest = 3;        // along the shortest
 constexpr double kGrown = 0.37;   // of a cell, that the grid begins outside the box: no face lies between two cells
+constexpr double kSharp = 0.99;   // of a cone's cosine: less is an edge or a corner
 constexpr std::uint32_t kLeafPoints = 4;
 
 /// A plane that touches the surface.
@@ -89,7 +90,7 @@ private:
         const glm::dvec3 off = glm::abs(meet - centre_);
         const bool within = off.x <= half_.x && off.y <= half_.y && off.z <= half_.z;
         if (within && std::fabs(distance<double>(tree_, {meet.x, meet.y, meet.z})) <= 10 * on_) {
-            found.place = meet;
+            found.place = meet, found.sharp = found.cosine < kSharp;
             return out.push_back(found);
         }
         // Of a curve, the point nearest to the middle of those found, if it is this cell's.

@@ -14,6 +14,7 @@ struct SurfacePoint {
     glm::dvec3 place{0};
     glm::dvec3 normal{0};              // unit, the middle of the cone, out of the shape
     double cosine = 1;                 // of the cone's half angle
+    bool sharp = false;                // an edge or a corner: all of the cone's normals are this one point's
 };
 
 class SurfacePoints {

@@ -223,7 +223,7 @@ TEST_CASE("simulate prints one line of JSON, and a trace whose last row is the e
     CHECK(json["state"].get<std::string>().size() == 16);
     // One ball makes no pair: no stage for pairs is called for, and none counts anything.
     CHECK(json["stages"].dump().find("\"flight\"") != std::string::npos);
-    CHECK(json["counts"]["integrations"] == 50);
+    CHECK(json["counts"]["integrations"] == 100);
     CHECK(json["stages"].dump().find("broad_phase") == std::string::npos);
     CHECK(json["counts"]["broad_phases"] == 0);
     // After half a second of free fall: v = g t, and the energy it began with.
