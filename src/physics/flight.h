@@ -84,6 +84,9 @@ private:
     void addStaticContacts(int i, std::vector<Contact>& io_contacts);
     bool bounceApart(std::vector<Contact>& contacts, int a, int b);
     double energyOf(int i) const;
+    glm::dvec3 accelerationAt(std::size_t i, const glm::dvec3& arm) const;
+    void bear(std::size_t i, const glm::dvec3& arm, const glm::dvec3& force);
+    double yieldOf(std::size_t i, const glm::dvec3& arm, const glm::dvec3& normal) const;
     void support(const std::vector<Contact>& contacts);
     void hold(std::size_t i);
 

@@ -67,20 +67,40 @@ bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
     return fast;
 }
 
-/// Takes from the accelerations what would press the balls further into the contacts they now rest on.
+/// The acceleration of the point that touches: of a ball that rolls, its centre's.
+glm::dvec3 Flight::accelerationAt(std::size_t i, const glm::dvec3& arm) const {
+    const Body& b = bodies_[i];
+    if (b.isBall() || !has(Stage::spin)) return paths_[i].acceleration;
+    return paths_[i].acceleration + glm::cross(paths_[i].turning, arm) + glm::cross(b.spin, glm::cross(b.spin, arm));
+}
+
+/// Adds a force at an arm to the accelerations, N.
+void Flight::bear(std::size_t i, const glm::dvec3& arm, const glm::dvec3& force) {
+    const Body& b = bodies_[i];
+    paths_[i].acceleration += b.inverse_mass * force;
+    if (!b.isBall() && has(Stage::spin)) paths_[i].turning += b.worldInverseInertia() * glm::cross(arm, force);
+}
+/// By how much a force of 1 N along the normal changes the point's acceleration along it.
+double Flight::yieldOf(std::size_t i, const glm::dvec3& arm, const glm::dvec3& normal) const {
+    const Body& b = bodies_[i];
+    if (b.isBall() || !has(Stage::spin)) return b.inverse_mass;
+    const glm::dvec3 lever = glm::cross(arm, normal);
+    return b.inverse_mass + glm::dot(lever, b.worldInverseInertia() * lever);
+}
+
+/// Takes from the accelerations what would press the bodies further into the contacts they now rest on.
 void Flight::support(const std::vector<Contact>& contacts) {
     for (int round = 0; round < 8; ++round) {
         for (const Contact& c : contacts) {
             const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(std::max(c.b, 0));
             const bool pair = c.b != kStatic;
-            const glm::dvec3 v = bodies_[a].velocity - (pair ? bodies_[b].velocity : glm::dvec3{0});
-            if (glm::dot(v, c.normal) > 1e-9) continue;
-            const glm::dvec3 acceleration = paths_[a].acceleration - (pair ? paths_[b].acceleration : glm::dvec3{0});
+            if (glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) > 1e-9) continue;
+            const glm::dvec3 acceleration = accelerationAt(a, c.arm_a) - (pair ? accelerationAt(b, c.arm_b) : glm::dvec3{0});
             const double press = -glm::dot(acceleration, c.normal);
             if (press <= 0) continue;
-            const double ma = bodies_[a].inverse_mass, mb = pair ? bodies_[b].inverse_mass : 0;
-            paths_[a].acceleration += (press * ma / (ma + mb)) * c.normal;
-            if (pair) paths_[b].acceleration -= (press * mb / (ma + mb)) * c.normal;
+            const double force = press / (yieldOf(a, c.arm_a, c.normal) + (pair ? yieldOf(b, c.arm_b, c.normal) : 0));
+            bear(a, c.arm_a, force * c.normal);
+            if (pair) bear(b, c.arm_b, -force * c.normal);
         }
     }
 }
