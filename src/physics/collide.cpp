@@ -21,7 +21,7 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
                 if (distanceTo(solid.box, pose.position) <= body.radius + within) others.push_back({&solid, {}, static_cast<std::uint32_t>(s)});
             }
             ++counts_.static_queries;
-            return others.empty() ? std::vector<ManifoldPoint>{} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
+            return others.empty() ? Manifold{{}, within} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
         };
         addPoints(i, body, pose, kStatic, nullptr, {}, margin, find, io_contacts);
     }
@@ -78,13 +78,16 @@ void Collider::addPoints(int i, const Body& a, const Pose& pose_a, int j, const 
     };
     std::uint64_t evaluations = 0;
     if (!memory_) {
-        for (const ManifoldPoint& p : find(margin, evaluations)) add(p);
+        for (const ManifoldPoint& p : find(margin, evaluations).points) add(p);
     } else {
         // What is looked for within the margin and a little more holds until it has moved by that little.
         const std::uint32_t id_a = a.object.value, id_b = b ? b->object.value : 0;
         const double slack = kFollowed * (b ? std::min(a.inner, b->inner) : a.inner);
         const ManifoldMemory::Entry* entry = memory_->follow(id_a, id_b, pose_a, pose_b, a.radius, margin);
-        if (!entry) entry = &memory_->remember(id_a, id_b, pose_a, pose_b, margin, slack, find(margin + slack, evaluations));
+        if (!entry) {
+            const Manifold found = find(margin + slack, evaluations);
+            entry = &memory_->remember(id_a, id_b, pose_a, pose_b, slack, found);
+        }
         for (const FollowedPoint& p : entry->points) add(pointOf(p, pose_a, pose_b));
     }
     field_.countEvaluations(evaluations);

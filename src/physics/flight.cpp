@@ -8,9 +8,19 @@
 
 namespace mb {
 
+namespace {
+/// Of the points a ball shows to what it meets, none is faster than its centre.
+double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
+}  // namespace
+
 double travelOf(const Body& body, const FlightRules& rules) {
-    const double h = rules.duration, turning = body.isBall() ? 0 : body.radius * glm::length(body.spin);
-    return (glm::length(body.velocity) + turning + std::fabs(rules.world.gravity) * h) * h;
+    const double h = rules.duration;
+    return (glm::length(body.velocity) + turningSpeed(body) + std::fabs(rules.world.gravity) * h) * h;
+}
+
+double travelBetween(const Body& a, const Body& b, const FlightRules& rules) {
+    const double h = rules.duration;
+    return (glm::length(a.velocity - b.velocity) + turningSpeed(a) + turningSpeed(b) + std::fabs(rules.world.gravity) * h) * h;
 }
 
 bool metInFlight(const Body& a, const FlightRules& rules) {
@@ -19,7 +29,7 @@ bool metInFlight(const Body& a, const FlightRules& rules) {
 
 bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
     if (a.isBall() && b.isBall()) return true;
-    return rules.stages.has(Stage::continuous) && travelOf(a, rules) + travelOf(b, rules) > kNear * std::min(a.inner, b.inner);
+    return rules.stages.has(Stage::continuous) && travelBetween(a, b, rules) > kNear * std::min(a.inner, b.inner);
 }
 
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,

@@ -25,8 +25,9 @@ struct FlightRules {
     bool proofs = true;       // a search that is proved to find nothing is not made
 };
 
-/// How far a point of the body may get in a part, m.
+/// How far a point of the body may get in a part, m; and one of a against one of b.
 double travelOf(const Body& body, const FlightRules& rules);
+double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
 /// Whether a contact of the two, or of a with what does not move, is met in flight: both are balls, or one is fast. (What lies
 /// ahead of a slow one is within the margin of its contacts.)
 bool metInFlight(const Body& a, const FlightRules& rules);

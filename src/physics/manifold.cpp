@@ -13,8 +13,10 @@ constexpr double kSame = 0.02;              // of the spacing: places nearer tha
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
 constexpr std::array kInwards{0.02, 0.08, 0.3};  // of the spacing: how far inside a sharp point its partner's face is read
 constexpr double kLevel = 1e-4;             // a slope that is none
+constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made
 constexpr double kSloping = 0.02;           // one that may be a flat face's
 constexpr double kBeside = 0.01;            // of the spacing
+constexpr double kTurning = 0.6;            // the same, of a point that is yet to move along its surface
 constexpr double kCone = 0.1;               // by which a contact's normal may leave the cone of the surface's own
 constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
 
@@ -35,20 +37,23 @@ public:
     Search(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations)
         : a_(a), others_(others), margin_(margin), evaluations_(io_evaluations) {}
 
-    std::vector<ManifoldPoint> run() {
+    Manifold run() {
         collectOfA();
         for (std::size_t o = 0; o < others_.size(); ++o) collectOfOther(o);
-        std::vector<ManifoldPoint> points;
+        Manifold found{{}, margin_};
+        if (candidates_.empty()) return found.room = std::max(margin_, room_), found;
         for (Candidate c : outermost(touching())) {
             if (!isSharp(c)) refine(c);
-            if (c.gap <= margin_ && faces(c)) addApart(c, points);
+            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
         }
         for (Candidate c : lowest()) {
             c.inwards = isSharp(c) ? kInwards[0] * spacingOf(c) : 0;
+            setTo(c, otherAt(c, c.at, c.inwards));
+            if (!faces(c, kTurning)) continue;
             refine(c);
-            if (c.gap <= margin_ && faces(c)) addApart(c, points);
+            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
         }
-        return points;
+        return found;
     }
 
 private:
@@ -64,15 +69,22 @@ private:
         s.gradient = p.pose.rotation * s.gradient;
         return s;
     }
-    bool near(const Placed& p, glm::dvec3 at, double reach) const {
-        return distanceTo(p.solid->box, p.pose.fromWorld(at)) <= reach && fieldOf(p, at) <= reach;
+    /// Whether some point within `radius` of a place may be nearer to the solid than `reach`; if not, how far all are.
+    bool near(const Placed& p, glm::dvec3 at, double radius, double between, double reach) const {
+        double bound = distanceTo(p.solid->box, p.pose.fromWorld(at)) - radius;
+        if (bound <= reach) bound = fieldOf(p, at) - radius;
+        if (bound <= reach) return true;
+        room_ = std::min(room_, bound - between);
+        return false;
     }
 
     void collectOfA() {
-        const double reach = margin_ + 0.5 * a_.solid->points.spacing();
+        const double between = 0.5 * a_.solid->points.spacing(), reach = margin_ + between;
         const auto may = [&](glm::dvec3 centre, double radius) {
             const glm::dvec3 at = a_.pose.toWorld(centre);
-            return std::ranges::any_of(others_, [&](const Placed& o) { return near(o, at, radius + reach); });
+            bool any = false;
+            for (const Placed& o : others_) any = near(o, at, radius, between, reach) || any;
+            return any;
         };
         a_.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
             const glm::dvec3 at = a_.pose.toWorld(point.place);
@@ -83,17 +95,19 @@ private:
                 if (const double f = fieldOf(others_[o], at); f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
             }
             if (found) candidates_.push_back(best);
+            else room_ = margin_;  // it is not known how much more
         });
     }
 
     void collectOfOther(std::size_t o) {
         const Placed& other = others_[o];
-        const double reach = margin_ + 0.5 * other.solid->points.spacing();
-        const auto may = [&](glm::dvec3 centre, double radius) { return near(a_, other.pose.toWorld(centre), radius + reach); };
+        const double between = 0.5 * other.solid->points.spacing(), reach = margin_ + between;
+        const auto may = [&](glm::dvec3 centre, double radius) { return near(a_, other.pose.toWorld(centre), radius, between, reach); };
         other.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
             const glm::dvec3 at = other.pose.toWorld(point.place);
-            if (const double f = fieldOf(a_, at); f <= reach)
-                candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &point, 0, {}});
+            const double f = fieldOf(a_, at);
+            if (f > reach) room_ = std::min(room_, f - between);
+            else candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &point, 0, {}});
         });
     }
 
@@ -113,7 +127,7 @@ private:
         for (const double share : kInwards) {
             io_c.inwards = isSharp(io_c) ? share * spacingOf(io_c) : 0;
             setTo(io_c, otherAt(io_c, io_c.at, io_c.inwards));
-            if (faces(io_c)) return io_c.gap <= margin_;
+            if (faces(io_c, kCone)) return io_c.gap <= margin_;
             if (!isSharp(io_c)) break;
         }
         return false;
@@ -127,9 +141,9 @@ private:
 
     /// Whether the two surfaces face one another there: the corner of a box beside another box is near its side, and yet what it
     /// stands on is below.
-    bool faces(const Candidate& c) const {
+    bool faces(const Candidate& c, double but) const {
         const double facing = glm::dot(owner(c).pose.rotation * c.from->normal, c.normal);
-        return (c.of_a ? -facing : facing) >= c.from->cosine - kCone;
+        return (c.of_a ? -facing : facing) >= c.from->cosine - but;
     }
 
     /// Those within the margin as they are, with their normals. A corner that juts out over the other's rim by a little counts as
@@ -205,9 +219,9 @@ private:
         Slope there = otherAt(io_c, io_c.at, io_c.inwards);
         glm::dvec3 along = downhill(io_c, there);
         double stride = 0.25 * spacingOf(io_c);
-        for (int i = 0; i < 12 && stride > 1e-4 * spacingOf(io_c); ++i) {
+        for (int i = 0; i < 12; ++i) {
             const double slant = glm::length(along);
-            if (slant < kLevel) break;
+            if (slant < kLevel || slant * stride < kWorth * spacingOf(io_c)) break;
             Candidate next = io_c;
             next.at += (stride / slant) * along;
             for (int round = 0; round < 2; ++round) {
@@ -244,11 +258,12 @@ private:
     double margin_;
     std::uint64_t& evaluations_;
     std::vector<Candidate> candidates_;
+    mutable double room_ = INFINITY;        // of what was not looked at closely
 };
 
 }  // namespace
 
-std::vector<ManifoldPoint> manifold(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations) {
+Manifold manifold(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations) {
     return Search(a, others, margin, io_evaluations).run();
 }
 

@@ -22,9 +22,14 @@ struct ManifoldPoint {
     std::size_t other = 0;      // which of `others`
 };
 
+struct Manifold {
+    std::vector<ManifoldPoint> points;
+    double room = 0;            // m: where there are no points, how far apart the shapes are at least
+};
+
 /// The points where `a` is nearer than `margin` to one of the others, or overlaps it: of each group of like normals the
 /// outermost ones and the deepest. Of a point of a's that several others are near to, the nearest counts, so that it slides
 /// over the seam of two tiles as over one. An overlap deeper than half the thinner one's thickness may be pushed out the wrong way.
-std::vector<ManifoldPoint> manifold(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations);
+Manifold manifold(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations);
 
 }  // namespace mb

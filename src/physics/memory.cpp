@@ -43,10 +43,11 @@ const ManifoldMemory::Entry* ManifoldMemory::follow(std::uint32_t a, std::uint32
     return &now_.back();
 }
 
-const ManifoldMemory::Entry& ManifoldMemory::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double margin,
-                                                      double slack, std::span<const ManifoldPoint> points) {
-    Entry entry{a, b, seenFrom(pose_b, pose_a), slack, margin + slack, {}};
-    for (const ManifoldPoint& p : points)
+const ManifoldMemory::Entry& ManifoldMemory::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack,
+                                                      const Manifold& found) {
+    // Where there are no points, none comes before the room is used up, however far that is.
+    Entry entry{a, b, seenFrom(pose_b, pose_a), found.points.empty() ? std::max(slack, found.room) : slack, found.room, {}};
+    for (const ManifoldPoint& p : found.points)
         entry.points.push_back({pose_a.fromWorld(p.point), pose_b.fromWorld(p.point - p.gap * p.normal), p.normal * pose_b.rotation, p.feature});
     now_.push_back(std::move(entry));
     return now_.back();

@@ -47,7 +47,7 @@ void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts, double h) {
         if (!a.isBall() || !b.isBall()) {
             if (glm::length(a.position - b.position) > reach[k].reach + reach[l].reach) continue;
         }
-        const double margin = restDepth(std::min(a.inner, b.inner)) + (metInFlight(a, b, rules) ? 0 : travel[k] + travel[l]);
+        const double margin = restDepth(std::min(a.inner, b.inner)) + (metInFlight(a, b, rules) ? 0 : travelBetween(a, b, rules));
         collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_contacts);
     }
 }

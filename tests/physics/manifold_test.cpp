@@ -31,7 +31,7 @@ TEST_CASE("a box upon an equal one touches it at four corners, whatever the last
         const auto some = [&](double size) { return glm::dvec3{random.in(-size, size), 0, random.in(-size, size)}; };
         const Placed a{&box, turnedBy(some(shift) + glm::dvec3{0, 1 + random.in(-1e-4, 2e-5), 0}, some(tilt)), 0}, b{&box, turnedBy({}, some(tilt)), 0};
         std::uint64_t evaluations = 0;
-        const std::vector<ManifoldPoint> points = manifold(a, {&b, 1}, 1e-4, evaluations);
+        const std::vector<ManifoldPoint> points = manifold(a, {&b, 1}, 1e-4, evaluations).points;
         int corners = 0;
         for (const glm::dvec3 corner : {glm::dvec3{0.5, 0.5, 0.5}, glm::dvec3{0.5, 0.5, -0.5}, glm::dvec3{-0.5, 0.5, 0.5}, glm::dvec3{-0.5, 0.5, -0.5}})
             corners += std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& p) { return glm::length(p.point - corner) < 0.05; });
