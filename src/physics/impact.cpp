@@ -4,16 +4,27 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace mb {
 namespace {
 constexpr int kImpactRounds = 60;
+
+/// Of the contacts from `first` on keeps those nearer than the depth. They were looked for as the search for the impact looked, so
+/// that what it found is among them.
+void dropApart(std::vector<Contact>& io_contacts, std::size_t first, double depth) {
+    const auto apart = [&](const Contact& c) { return c.gap > depth; };
+    io_contacts.erase(std::remove_if(io_contacts.begin() + static_cast<std::ptrdiff_t>(first), io_contacts.end(), apart), io_contacts.end());
 }
+}  // namespace
 
 void Flight::addStaticContacts(int i, std::vector<Contact>& io_contacts) {
     const Body& body = bodies_[static_cast<std::size_t>(i)];
     NearStatics& near = near_[static_cast<std::size_t>(i)];
     if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.inner)) return;
-    collider_.withStatics(i, body, body.pose(), restDepth(body.inner), near, io_contacts);
+    const std::size_t before = io_contacts.size();
+    collider_.withStatics(i, body, body.pose(), kNear * body.inner, near, io_contacts);
+    dropApart(io_contacts, before, restDepth(body.inner));
 }
 
 /// The contacts of one or two balls at this moment: between the two, and with what does not move.
@@ -24,9 +35,12 @@ std::vector<Contact> Flight::contactsOf(int a, int b) {
             if (i != kStatic) addStaticContacts(i, contacts);
     if (b == kStatic) return contacts;
     const Body &x = bodies_[static_cast<std::size_t>(a)], &y = bodies_[static_cast<std::size_t>(b)];
+    const double inner = std::min(x.inner, y.inner);
+    const std::size_t before = contacts.size();
     // That balls meet is known; their gap is 0 but for rounding.
-    const double margin = x.isBall() && y.isBall() ? INFINITY : restDepth(std::min(x.inner, y.inner));
-    collider_.between(a, x, x.pose(), b, y, y.pose(), margin, contacts);
+    const bool balls = x.isBall() && y.isBall();
+    collider_.between(a, x, x.pose(), b, y, y.pose(), balls ? INFINITY : kNear * inner, contacts);
+    if (!balls) dropApart(contacts, before, restDepth(inner));
     return contacts;
 }
 

@@ -30,17 +30,25 @@ void ManifoldMemory::begin() {
     std::sort(last_.begin(), last_.end(), before);  // no two are equal
 }
 
-const ManifoldMemory::Entry* ManifoldMemory::follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius,
-                                                    double margin) {
+ManifoldMemory::Entry* ManifoldMemory::lastOf(std::uint32_t a, std::uint32_t b) {
     Entry wanted;
     wanted.a = a, wanted.b = b;
     const auto found = std::lower_bound(last_.begin(), last_.end(), wanted, before);
-    if (found == last_.end() || found->a != a || found->b != b) return nullptr;
-    const double moved = movedBetween(found->found, seenFrom(pose_b, pose_a), radius);
-    if (moved > found->slack || margin + moved > found->reach) return nullptr;
-    now_.push_back(std::move(*found));
-    found->slack = -1;
+    return found != last_.end() && found->a == a && found->b == b ? &*found : nullptr;
+}
+
+const ManifoldMemory::Entry* ManifoldMemory::follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius,
+                                                    double margin) {
+    Entry* last = lastOf(a, b);
+    if (!last) return nullptr;
+    const double moved = movedBetween(last->found, seenFrom(pose_b, pose_a), radius);
+    if (moved > last->slack || margin + moved > last->reach) return nullptr;
+    now_.push_back(std::move(*last));
     return &now_.back();
+}
+
+void ManifoldMemory::keep(std::uint32_t a, std::uint32_t b) {
+    if (Entry* last = lastOf(a, b)) now_.push_back(std::move(*last));
 }
 
 const ManifoldMemory::Entry& ManifoldMemory::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack,

@@ -29,6 +29,8 @@ public:
     /// The pair's points, if they still are all there are within the margin; null: they must be looked for anew. `radius`: of a
     /// about its frame's origin.
     const Entry* follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius, double margin);
+    /// Keeps the pair's entry as it is: of one that sleeps.
+    void keep(std::uint32_t a, std::uint32_t b);
     /// Keeps what was found; points hold for as long as nothing has moved by the slack.
     const Entry& remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack, const Manifold& found);
     void addTo(StateHash& io_hash) const;
@@ -36,6 +38,8 @@ public:
     void clear() { last_.clear(), now_.clear(); }
 
 private:
+    Entry* lastOf(std::uint32_t a, std::uint32_t b);
+
     std::vector<Entry> last_, now_;        // last_: sorted
 };
 

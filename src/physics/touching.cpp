@@ -21,7 +21,10 @@ void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts, double h) {
     const Collider collider(world_, field_, counts_, &memory_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& b = bodies_[i];
-        if (!b.awake) continue;
+        if (!b.awake) {
+            memory_.keep(b.object.value, 0);
+            continue;
+        }
         const double margin = restDepth(b.inner) + (metInFlight(b, rules) ? 0 : travelOf(b, rules));
         if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) continue;
         collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_contacts);
