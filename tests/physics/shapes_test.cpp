@@ -99,33 +99,6 @@ TEST_CASE("a ball at rest on a rim, a hollow's edge or a box's edge touches it")
     MESSAGE("gap at rest ", worst);
 }
 
-TEST_CASE("a ball in a groove rests on both walls, at r / sin(A/2)") {
-    const double r = 0.1;
-    double worst = 0;
-    for (const double degrees : {90.0, 60.0, 30.0, 10.0})
-        for (const bool cut : {false, true}) {
-            Scene s = scene(1.0 / 120, 0.3, 0.3);
-            if (!cut) groove(s, degrees);
-            else if (degrees != 90) continue;
-            else {  // one leaf makes both walls
-                add(s, "subtract", {}, {0});
-                add(s, "box", {0, -0.9, 0}, {4, 2, 4, 0}, 0);
-                add(s, "box", {0, std::sqrt(2.0), 0}, {2, 2, 3, 0}, 0).rot = {0, 0, 45};
-            }
-            const double rest = r / std::sin(degrees / 2 * kPi / 180);
-            ball(s, {0.003, rest + 0.05, 0}, r);
-            PhysicsWorld w(s);
-            run(w, 3);
-            CAPTURE(degrees); CAPTURE(cut);
-            const double off = std::fabs(w.bodies()[0].position.y - rest);
-            worst = std::max(worst, off);
-            CHECK(off <= 1e-3);
-            CHECK(std::fabs(w.bodies()[0].position.x) <= 1e-3);
-            CHECK(glm::length(w.bodies()[0].velocity) <= 1e-3);
-        }
-    MESSAGE("groove height error ", worst);
-}
-
 TEST_CASE("a ball in the corner of a pit touches three walls") {
     Scene s;
     add(s, "subtract", {}, {0});
@@ -175,25 +148,6 @@ TEST_CASE("a ball that starts in a solid comes out of it whole, its centre not l
             REQUIRE(w.bodies().size() == 1);
             CHECK(w.bodies()[0].position.y == doctest::Approx(6.2).epsilon(1e-4));
         }
-}
-
-TEST_CASE("a ball deep inside a solid comes out gently") {
-    for (const glm::dvec3 at : {glm::dvec3{0, 0, 0}, glm::dvec3{0.1, 0.45, 0}, glm::dvec3{0.5, 0.5, 0.5}}) {
-        Scene s = scene(1.0 / 120, 0.5, 0.5);
-        add(s, "box", {}, {1, 1, 1, 0});
-        ball(s, at, 0.1);
-        PhysicsWorld w(s);
-        double fastest = 0;
-        glm::dvec3 last = at;
-        for (int i = 0; i < 300; ++i) {
-            w.step();
-            if (w.bodies().empty()) break;
-            if (w.maxPenetration() > 1e-3) fastest = std::max(fastest, glm::length(w.bodies()[0].position - last) / w.dt_s());
-            last = w.bodies()[0].position;
-        }
-        CHECK(w.maxPenetration() <= 1e-3);
-        CHECK(fastest <= kPushOutSpeed + 0.5);
-    }
 }
 
 namespace {

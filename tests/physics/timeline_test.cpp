@@ -104,17 +104,6 @@ TEST_CASE("any moment that is gone to has the state it had, whatever was done, a
     }
 }
 
-TEST_CASE("case 87: a copy of step 100, and a seek to it, go on to the state of step 200") {
-    const Scene s = busy();
-    Timeline whole(s);
-    live(whole, s);
-    whole.seek(100);
-    Timeline restored = whole;
-    while (!restored.atEnd()) restored.advance();
-    CHECK(restored.world().stateHash() == (whole.seek(200), whole.world().stateHash()));
-    CHECK_FALSE(restored.divergence());
-}
-
 TEST_CASE("what is done at the end stays done there; what is done earlier discards what came behind") {
     const Scene s = busy();
     Timeline t(s);
