@@ -49,8 +49,9 @@ template <bool spins> struct BallRow {
         motion_a.spin -= turn_a * turn;
         if (motion_b) motion_b->spin -= turn_b * turn;
     }
-    /// The tangential impulse that changes the slip by that much.
+    /// The tangential impulse that changes the slip by that much; and the mass it meets, along the lightest direction.
     glm::dvec3 dragFor(const glm::dvec3& slip) const { return tangent_mass * slip; }
+    double lightest() const { return tangent_mass; }
 };
 
 /// The same of any bodies: the levers are the contact's arms, and how hard a body is to turn depends on the axis.
@@ -108,6 +109,10 @@ template <bool spins> struct LeverRow {
         const double s = glm::dot(t, slip), r = glm::dot(u, slip);
         return (tt * s + tu * r) * t + (tu * s + uu * r) * u;
     }
+    double lightest() const {
+        const double mean = 0.5 * (tt + uu), apart = 0.5 * (tt - uu);
+        return mean - std::sqrt(apart * apart + tu * tu);
+    }
 };
 
 /// Turns the drag towards no slip, within Coulomb's cone; says by how much it changed a velocity.
@@ -118,8 +123,11 @@ template <class Row> double turnDrag(const Row& row, std::uint64_t& io_drags) {
     ++io_drags;
     const glm::dvec3 v = row.velocity(), slip = v - glm::dot(v, c.normal) * c.normal;
     glm::dvec3 drag_now = c.drag + row.dragFor(c.slip - slip);
-    const double size = glm::length(drag_now);
-    if (size > limit) drag_now *= limit / size;
+    if (glm::length(drag_now) > limit) {
+        // What slides is dragged against its slip, however hard it is to turn: a step down the slip, then onto the cone.
+        drag_now = c.drag + row.lightest() * (c.slip - slip);
+        if (const double size = glm::length(drag_now); size > limit) drag_now *= limit / size;
+    }
     const glm::dvec3 change = drag_now - c.drag;
     c.drag = drag_now;
     row.drag(change);
