@@ -45,6 +45,7 @@ void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Bo
             return manifold({a.solid.get(), pose_a, 0}, {&other, 1}, within, io_evaluations);
         };
         addPoints(i, a, pose_a, j, &b, pose_b, margin, find, io_contacts);
+        if (io_contacts.size() == before) addWayOut(i, a, pose_a, j, b, pose_b, io_contacts);
     }
     counts_.body_contacts += io_contacts.size() - before;
 }
@@ -62,6 +63,16 @@ void Collider::ballWithShape(int i, const Body& ball, const Pose& at, int j, con
         c.b = j, c.arm_b = pose.rotation * touch.point;
         io_contacts.push_back(c);
     }
+}
+
+/// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres.
+void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
+    const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
+    if (!(deep > 0)) return;
+    Contact c;
+    c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.pairing = {0, 0};
+    c.arm_b = pose_a.position - pose_b.position;
+    io_contacts.push_back(c);
 }
 
 template <class Find>

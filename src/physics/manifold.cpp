@@ -11,7 +11,7 @@ namespace {
 constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
-constexpr std::array kInwards{0.02, 0.08, 0.3};  // of the spacing: how far inside a sharp point its partner's face is read
+constexpr std::array kInwards{0.02, 0.08, 0.3, 0.8, 2.0};  // of the spacing: how far inside a sharp point its partner's face is read
 constexpr double kLevel = 1e-4;             // a slope that is none
 constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made
 constexpr double kSloping = 0.02;           // one that may be a flat face's

@@ -115,7 +115,7 @@ TEST_CASE("search: of a known front nearly all is found by a part of the setting
     const auto measure = [](Run& run) {
         twoKnobs(run);
         const PhysicsKnobs& unused = run.setting.physics;
-        CHECK(unused.substeps == 1);
+        CHECK(unused.substeps == PhysicsKnobs{}.substeps);
         run.errors[Error::color] += 1e-3 * std::fabs(std::log2(run.setting.render.bias / 2));
         run.costs[Cost::evaluations] *= 1 + 0.1 * (run.setting.render.normal_taps - 4);
         run.errors[Error::normal] = run.setting.render.normal_taps == 6 ? 0.5 : 1;
