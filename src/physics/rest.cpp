@@ -165,10 +165,14 @@ bool PhysicsWorld::isOf(const Kept& kept, const Contact& c) const {
 
 void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
     std::vector<char> taken(kept_.size(), 0);
+    struct Range {
+        std::size_t begin = 0, end = 0;
+    };
     const auto keptOf = [&](const Contact& c) {
         const std::pair pair{bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value};
-        const auto [begin, end] = std::ranges::equal_range(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
-        return std::pair{static_cast<std::size_t>(begin - kept_.begin()), static_cast<std::size_t>(end - kept_.begin())};
+        const auto begin = std::ranges::lower_bound(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
+        const auto end = std::ranges::upper_bound(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
+        return Range{static_cast<std::size_t>(begin - kept_.begin()), static_cast<std::size_t>(end - kept_.begin())};
     };
     const auto take = [&](Contact& io_c, std::size_t k) {
         taken[k] = 1, io_c.push += kept_[k].push;
@@ -177,7 +181,8 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
     for (const bool same_feature : {true, false}) {
         for (Contact& c : contacts) {
             if (c.push > 0) continue;
-            for (auto [k, end] = keptOf(c); k < end; ++k) {
+            const Range range = keptOf(c);
+            for (std::size_t k = range.begin; k < range.end; ++k) {
                 if (taken[k] || (same_feature && kept_[k].feature != c.feature) || !isOf(kept_[k], c)) continue;
                 take(c, k);
                 break;
@@ -188,7 +193,8 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
     for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
         for (end = i + 1; end < contacts.size() && contacts[end].a == contacts[i].a && contacts[end].b == contacts[i].b;) ++end;
         if (bodies_[at(contacts[i].a)].isBall()) continue;
-        for (auto [k, last] = keptOf(contacts[i]); k < last; ++k) {
+        const Range range = keptOf(contacts[i]);
+        for (std::size_t k = range.begin; k < range.end; ++k) {
             if (taken[k]) continue;
             const auto apart = [&](const Contact& c) {
                 return glm::dot(kept_[k].normal, c.normal) < 0.9 ? INFINITY : glm::length(c.arm_a - kept_[k].arm);
