@@ -153,10 +153,6 @@ template <bool drags, class Row> void begin(std::vector<Row>& io_rows, std::span
         if (c.drag != glm::dvec3{0}) io_rows.back().drag(c.drag);
 }
 
-bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
-    return bodies[static_cast<std::size_t>(c.a)].isBall() && (c.b == kStatic || bodies[static_cast<std::size_t>(c.b)].isBall());
-}
-
 template <bool spins, bool drags>
 void solveRows(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, StepCounts& io_counts) {
     std::vector<BallRow<spins>> ball_rows;
@@ -180,6 +176,10 @@ void solveRows(std::span<const Body> bodies, std::span<Contact> contacts, std::s
 }
 
 }  // namespace
+
+bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
+    return bodies[static_cast<std::size_t>(c.a)].isBall() && (c.b == kStatic || bodies[static_cast<std::size_t>(c.b)].isBall());
+}
 
 glm::dvec3 directionApart(const Body& a, const Body& b) {
     const glm::dvec3 apart = a.position - b.position;

@@ -29,6 +29,9 @@ glm::dvec3 directionApart(const Body& a, const Body& b);
 Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pairing pairing);
 Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing);
 
+/// Whether no lever is needed: a ball with what does not move, or with another ball.
+bool betweenBalls(std::span<const Body> bodies, const Contact& c);
+
 /// The velocity of a's surface against b's at the contact, or of the centres, where no surface turns. b: null for a static one.
 glm::dvec3 relativeVelocity(const Motion& a, const Motion* b, const Contact& c, bool spins);
 /// The same of bodies as they move.

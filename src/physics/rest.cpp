@@ -23,10 +23,6 @@ double depthOf(std::span<const Body> bodies, const Contact& c) {
     return restDepth(c.b == kStatic ? a : std::min(a, bodies[at(c.b)].inner));
 }
 
-bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
-    return bodies[at(c.a)].isBall() && (c.b == kStatic || bodies[at(c.b)].isBall());
-}
-
 }  // namespace
 
 /// Bodies that touch sleep and wake together: an island sleeps when each of them has been still for long enough.

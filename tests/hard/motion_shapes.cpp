@@ -3,18 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
-
 using namespace mb;
 using namespace mb::test;
-
-namespace {
-double secondsFor(PhysicsWorld& io_world, int steps) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < steps; ++i) io_world.step();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-}  // namespace
 
 TEST_CASE("case 58: two cubes that meet face to face exchange velocities, wherever they start") {
     int through = 0;

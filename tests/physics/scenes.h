@@ -2,6 +2,7 @@
 // Small scenes for the tests of the physics.
 #include "physics/world.h"
 
+#include <chrono>
 #include <cmath>
 #include <string_view>
 
@@ -97,6 +98,13 @@ inline void tube(Scene& s, double height) {
 }
 inline void run(PhysicsWorld& world, double seconds) {
     for (const double end = world.time_s() + seconds - 0.5 * world.dt_s(); world.time_s() < end;) world.step();
+}
+
+/// The wall time that so many steps take.
+inline double secondsFor(PhysicsWorld& io_world, int steps) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < steps; ++i) io_world.step();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace mb::test

@@ -4,18 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
-
 using namespace mb;
 using namespace mb::test;
-
-namespace {
-double secondsFor(PhysicsWorld& io_world, int steps) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < steps; ++i) io_world.step();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-}  // namespace
 
 TEST_CASE("case 60, open: two small boxes carry one of a hundred times and more their mass") {
     for (const double ratio : {100.0, 1e3, 1e6}) {
