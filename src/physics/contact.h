@@ -11,6 +11,7 @@ inline constexpr int kStatic = -1;
 
 struct Contact {
     int a = 0, b = kStatic;        // numbers of bodies; b may be static
+    int island = 0;                // which it belongs to; those of one stand together
     glm::dvec3 normal{0};          // unit, from b towards a
     double gap = 0;                // m
     glm::dvec3 arm_a{0}, arm_b{0}; // from the centres of mass to the contact, m
@@ -38,7 +39,7 @@ glm::dvec3 relativeVelocity(const Motion& a, const Motion* b, const Contact& c, 
 glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Contact& c, bool spins);
 
 /// Solves for impulses by turns (sequential impulses; Catto, "Iterative Dynamics with Temporal Coherence", 2005) until
-/// the last round changed no velocity by more than 1e-12 m/s, or `rounds` is reached. `motion` is indexed by the body's
+/// the last round changed no velocity of an island by more than 1e-12 m/s, or `rounds` is reached. `motion` is indexed by the body's
 /// number. Impulses already in the contacts are applied first. Its rounds are composed of the stages: without friction there
 /// is no tangential part, without spin nothing turns.
 void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, Stages stages,

@@ -78,6 +78,7 @@ bool isOutOfRange(const Movable& m) {
 PhysicsWorld::PhysicsWorld(const Scene& scene, StageChoice choice) : world_(scene.world), knobs_(scene.physics), choice_(choice) {
     std::vector<Made> made;
     for (std::size_t i = 0; i < scene.objects.size(); i = subtreeEnd(scene, i)) addBody(scene, i, made);
+    findKept();
     changeStatics(scene);
 }
 

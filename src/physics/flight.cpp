@@ -24,11 +24,12 @@ double travelBetween(const Body& a, const Body& b, const FlightRules& rules) {
 }
 
 bool metInFlight(const Body& a, const FlightRules& rules) {
-    return a.isBall() || (rules.stages.has(Stage::continuous) && travelOf(a, rules) > kNear * a.inner);
+    if (a.isBall() && pairing(rules.world, a).restitution != 0) return true;
+    return rules.stages.has(Stage::continuous) && travelOf(a, rules) > kNear * a.inner;
 }
 
 bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
-    if (a.isBall() && b.isBall()) return true;
+    if (a.isBall() && b.isBall() && pairing(rules.world, a, b).restitution != 0) return true;
     return rules.stages.has(Stage::continuous) && travelBetween(a, b, rules) > kNear * std::min(a.inner, b.inner);
 }
 
@@ -155,6 +156,7 @@ void Flight::expectStatic(std::size_t i) {
     if (!has(Stage::static_contacts) || field_.empty() || paths_[i].held || !bodies_[i].awake) return;
     const Body& b = bodies_[i];
     if (!b.isBall()) return expectStaticOfShape(i);
+    if (paths_[i].events == 0 && !metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration;
     const double speed = glm::length(b.velocity) + (to - from) * glm::length(paths_[i].acceleration);
     const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.inner)};
@@ -189,6 +191,7 @@ bool Flight::noStaticAhead(std::size_t i, double duration, const ApproachLimits&
 void Flight::expectPair(std::size_t i, std::size_t j) {
     if (!bodies_[i].awake && !bodies_[j].awake) return;
     if (!bodies_[i].isBall() || !bodies_[j].isBall()) return expectPairOfShapes(i, j);
+    if (paths_[i].events == 0 && paths_[j].events == 0 && !metInFlight(bodies_[i], bodies_[j], rules_)) return;
     const double sum = bodies_[i].radius + bodies_[j].radius;
     const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration;
     const auto gap_at = [&](double t) {

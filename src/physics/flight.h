@@ -5,8 +5,8 @@
 // at the moment it happens. Each body keeps its own clock inside the part and is brought forward when something happens
 // to it (event-driven dynamics; Lubachevsky, "How to Simulate Billiards and Similar Systems", 1991).
 //
-// Impacts are looked for along the paths of balls, and of other shapes where they are so fast that they might pass through
-// something. A slow shape's are met at the start of the part, by contacts that look ahead (rest.cpp).
+// Impacts are looked for along the paths of balls that bounce, and of whatever is so fast that it might pass through something.
+// The others' are met at the start of the part, by contacts that look ahead (rest.cpp, crowd.cpp).
 #include "physics/approach.h"
 #include "physics/broadphase.h"
 #include "physics/collide.h"
@@ -28,8 +28,8 @@ struct FlightRules {
 /// How far a point of the body may get in a part, m; and one of a against one of b.
 double travelOf(const Body& body, const FlightRules& rules);
 double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
-/// Whether a contact of the two, or of a with what does not move, is met in flight: both are balls, or one is fast. (What lies
-/// ahead of a slow one is within the margin of its contacts.)
+/// Whether a contact of the two, or of a with what does not move, is met in flight: balls that bounce, and what is fast. (What
+/// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew.)
 bool metInFlight(const Body& a, const FlightRules& rules);
 bool metInFlight(const Body& a, const Body& b, const FlightRules& rules);
 

@@ -18,34 +18,24 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double depthOf(std::span<const Body> bodies, const Contact& c) {
-    const double a = bodies[at(c.a)].inner;
-    return restDepth(c.b == kStatic ? a : std::min(a, bodies[at(c.b)].inner));
-}
-
 }  // namespace
 
+/// How deep two bodies may rest in one another, m.
+double PhysicsWorld::depthOf(const Contact& c) const {
+    const double a = bodies_[at(c.a)].inner;
+    return restDepth(c.b == kStatic ? a : std::min(a, bodies_[at(c.b)].inner));
+}
+
 /// Bodies that touch sleep and wake together: an island sleeps when each of them has been still for long enough.
-void PhysicsWorld::wakeAndSleep(std::span<const Contact> contacts) {
+void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     ++counts_.islands;
-    std::vector<int> island(bodies_.size());
-    std::iota(island.begin(), island.end(), 0);
-    const auto root = [&](int i) {
-        while (island[at(i)] != i) i = island[at(i)] = island[at(island[at(i)])];
-        return i;
-    };
-    for (const Contact& c : contacts) {
-        if (c.b == kStatic) continue;
-        const int a = root(c.a), b = root(c.b);
-        island[at(std::max(a, b))] = std::min(a, b);
-    }
     const int long_enough = static_cast<int>(std::ceil(kStillTime / (knobs_.dt / knobs_.substeps)));
     std::vector<char> restless(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].still < long_enough) restless[at(root(static_cast<int>(i)))] = 1;
+        if (bodies_[i].still < long_enough) restless[at(islands.of(static_cast<int>(i)))] = 1;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Body& b = bodies_[i];
-        b.awake = restless[at(root(static_cast<int>(i)))];
+        b.awake = restless[at(islands.of(static_cast<int>(i)))];
         if (!b.awake) b.velocity = {}, b.spin = {};
     }
 }
@@ -57,7 +47,7 @@ void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
     std::vector<Contact> overlaps(contacts.begin(), contacts.end());
     bool any = false;
     for (Contact& c : overlaps) {
-        const double deep = -c.gap - 0.5 * depthOf(bodies_, c);
+        const double deep = -c.gap - 0.5 * depthOf(c);
         any = any || deep > 0;
         c.target = deep > 0 ? knobs_.push_out * deep : deep;
     }
@@ -100,6 +90,7 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
 std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) {
     std::vector<Contact> midway;
     std::vector<Touch> touches;
+    const FlightRules rules = rulesFor(h);
     int of = -1;
     for (const Contact& c : contacts) {
         Contact m = c;
@@ -125,7 +116,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
         const Touch* best = nullptr;
         for (const Touch& t : touches)
             if (!best || glm::dot(t.normal, c.normal) > glm::dot(best->normal, c.normal)) best = &t;
-        if (!best || glm::dot(best->normal, c.normal) < 0.7 || best->gap > restDepth(a.radius)) continue;
+        if (!best || glm::dot(best->normal, c.normal) < 0.7 || (flown(c, rules) && best->gap > restDepth(a.radius))) continue;
         m.normal = best->normal, m.arm_a = -a.radius * m.normal;
         midway.push_back(m);
     }
@@ -136,6 +127,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
 /// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
 void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
     const glm::dvec3 fall{0, -world_.gravity * h, 0};
+    const FlightRules rules = rulesFor(h);
     for (Contact& c : contacts) {
         const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
@@ -143,7 +135,7 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
             c.target = -2 * std::max(c.gap, 0.0) / h - std::max(away, 0.0);
             continue;
         }
-        c.target = -away;
+        c.target = -away - (flown(c, rules) ? 0 : 2 * std::max(c.gap, 0.0) / h);
         if (!has(Stage::friction)) continue;
         const glm::dvec3 slip = v - away * c.normal;
         const glm::dvec3 pulled = c.b == kStatic ? fall - glm::dot(fall, c.normal) * c.normal : glm::dvec3{0};
@@ -165,10 +157,12 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
         std::size_t begin = 0, end = 0;
     };
     const auto keptOf = [&](const Contact& c) {
-        const std::pair pair{bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value};
-        const auto begin = std::ranges::lower_bound(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
-        const auto end = std::ranges::upper_bound(kept_, pair, {}, [](const Kept& k) { return std::pair{k.a, k.b}; });
-        return Range{static_cast<std::size_t>(begin - kept_.begin()), static_cast<std::size_t>(end - kept_.begin())};
+        const std::uint32_t b = c.b == kStatic ? 0 : bodies_[at(c.b)].object.value;
+        Range range{kept_begin_[at(c.a)], kept_begin_[at(c.a) + 1]};
+        while (range.begin < range.end && kept_[range.begin].b != b) ++range.begin;
+        std::size_t end = range.begin;
+        while (end < range.end && kept_[end].b == b) ++end;
+        return range.end = end, range;
     };
     const auto take = [&](Contact& io_c, std::size_t k) {
         taken[k] = 1, io_c.push += kept_[k].push;
@@ -201,13 +195,29 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
     }
 }
 
+/// Keeps the impulses of contacts, those with one a together; of one pair in their order.
 void PhysicsWorld::keep(std::span<const Contact> contacts) {
-    kept_.clear();
+    std::vector<std::uint32_t> begin(bodies_.size() + 1, 0);
     for (const Contact& c : contacts)
-        if (c.push > 0)
-            kept_.push_back({bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
-                             c.arm_a, c.push, c.drag});
-    std::stable_sort(kept_.begin(), kept_.end(), [](const Kept& x, const Kept& y) { return std::pair{x.a, x.b} < std::pair{y.a, y.b}; });
+        if (c.push > 0) ++begin[at(c.a) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    kept_begin_ = begin;
+    kept_.resize(begin.back());
+    for (const Contact& c : contacts) {
+        if (!(c.push > 0)) continue;
+        kept_[begin[at(c.a)]++] = {bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
+                                   c.arm_a, c.push, c.drag};
+    }
+}
+
+/// Finds again where each body's begin, after some were taken out.
+void PhysicsWorld::findKept() {
+    kept_begin_.assign(bodies_.size() + 1, 0);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        while (k < kept_.size() && kept_[k].a == bodies_[i].object.value) ++k;
+        kept_begin_[i + 1] = static_cast<std::uint32_t>(k);
+    }
 }
 
 /// Gravity's acceleration of every body.
@@ -218,9 +228,9 @@ std::vector<Motion> PhysicsWorld::falling() const {
     return accelerations;
 }
 
-/// Adds what the contacts a body rests on do to it through the part. Of a body that nothing carries the acceleration stays
+/// Adds what the contacts a body rests on do to it through the part, and returns them with their impulses. Of a body that nothing carries the acceleration stays
 /// gravity itself: the quotient would round it.
-void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations) {
+std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations) {
     std::vector<Contact> midway = atMidway(contacts, h);
     setTargets(midway, h);
     takeKept(midway);
@@ -233,13 +243,11 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
         if (c.b != kStatic) carried[at(c.b)] = 1;
     }
     solve(bodies_, midway, after, knobs_.iterations, stages_, counts_);
-    keep(midway);
-    contacts_ = static_cast<int>(std::count_if(midway.begin(), midway.end(), [](const Contact& c) { return c.push > 0; }));
-
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (!bodies_[i].awake || !carried[i]) continue;
         io_accelerations[i] = {(after[i].velocity - bodies_[i].velocity) / h, (after[i].spin - bodies_[i].spin) / h};
     }
+    return midway;
 }
 
 /// Counts for how long each body that touches something has been still: slower than `sleep_speed`; without gravity only rest
@@ -247,7 +255,7 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
 void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
     std::vector<char> touches(bodies_.size(), world_.gravity == 0), deep(bodies_.size(), 0);
     for (const Contact& c : contacts) {
-        const double depth = depthOf(bodies_, c);
+        const double depth = depthOf(c);
         const bool touching = c.gap <= depth, overlaps = c.gap < -2 * depth;
         touches[at(c.a)] |= touching, deep[at(c.a)] |= overlaps;
         if (c.b != kStatic) touches[at(c.b)] |= touching, deep[at(c.b)] |= overlaps;

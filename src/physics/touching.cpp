@@ -25,7 +25,8 @@ void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts, double h) {
             memory_.keep(b.object.value, 0);
             continue;
         }
-        const double margin = restDepth(b.inner) + (metInFlight(b, rules) ? 0 : travelOf(b, rules));
+        const double ahead = restDepth(b.inner) + (metInFlight(b, rules) ? 0 : travelOf(b, rules));
+        const double margin = b.isBall() ? std::min(ahead, kNear * b.radius) : ahead;
         if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) continue;
         collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_contacts);
     }
@@ -38,7 +39,7 @@ void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts, double h) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& b = bodies_[i];
         travel[i] = b.awake ? travelOf(b, rules) : 0;
-        reach[i] = {b.position, b.radius + restDepth(b.inner) + (allBalls() ? 0 : travel[i])};
+        reach[i] = {b.position, b.radius + restDepth(b.inner) + travel[i]};
     }
     const std::vector<std::pair<int, int>> pairs = overlappingPairs(reach);
     ++counts_.broad_phases, counts_.pairs += pairs.size();

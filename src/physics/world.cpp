@@ -55,26 +55,43 @@ void PhysicsWorld::part(double h) {
     }
     tame();
     std::vector<Contact> contacts = touching(h);
-    if (has(Stage::sleeping)) wakeAndSleep(contacts);
-    const std::vector<Motion> accelerations = rest(contacts, h);
+    const Islands islands(bodies_.size(), contacts);
+    if (has(Stage::sleeping)) wakeAndSleep(islands);
+    const std::vector<Motion> accelerations = rest(contacts, islands, h);
     if (has(Stage::flight)) fly(accelerations, h);
     if (has(Stage::sleeping)) countStill(contacts, h);
     removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
 }
 
-/// What lasts of the contacts keeps the balls up: their accelerations through the part.
-std::vector<Motion> PhysicsWorld::rest(std::vector<Contact>& io_contacts, double h) {
+/// What lasts of the contacts keeps the bodies up: their accelerations through the part. Crowds are settled, the others carried.
+std::vector<Motion> PhysicsWorld::rest(std::span<const Contact> contacts, const Islands& islands, double h) {
     std::vector<Motion> accelerations = falling();
-    if (!io_contacts.empty()) {
-        pushApart(io_contacts, h);
-        dropImpacts(io_contacts, h);
+    std::vector<Contact> crowds, others;
+    const std::vector<std::uint32_t> order = islands.sorted(contacts);
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        const int island = islands.of(contacts[order[begin]]);
+        bool balls = true, pairs = false;
+        for (; end < order.size() && islands.of(contacts[order[end]]) == island; ++end) {
+            const Contact& c = contacts[order[end]];
+            balls = balls && betweenBalls(bodies_, c), pairs = pairs || c.b != kStatic;
+        }
+        if (!bodies_[static_cast<std::size_t>(island)].awake) continue;
+        std::vector<Contact>& to = balls && pairs ? crowds : others;
+        for (std::size_t k = begin; k < end; ++k) to.push_back(contacts[order[k]]), to.back().island = island;
     }
-    if (io_contacts.empty()) {
-        kept_.clear(), contacts_ = 0;
-        return accelerations;
+    if (!others.empty()) {
+        pushApart(others, h);
+        dropImpacts(others, h);
     }
-    stopApproaches(io_contacts, h);
-    carry(io_contacts, h, accelerations);
+    dropImpacts(crowds, h);
+    if (!others.empty()) {
+        stopApproaches(others, h);
+        others = carry(others, h, accelerations);
+    }
+    settleCrowds(crowds, h, accelerations);
+    others.insert(others.end(), crowds.begin(), crowds.end());
+    keep(others);
+    contacts_ = static_cast<int>(kept_.size());
     return accelerations;
 }
 
@@ -83,11 +100,10 @@ bool PhysicsWorld::flown(const Contact& c, const FlightRules& rules) const {
     return c.b == kStatic ? metInFlight(a, rules) : metInFlight(a, bodies_[static_cast<std::size_t>(c.b)], rules);
 }
 
-/// Fast approaches that are met in flight are the flight's business. Sleepers need nothing.
+/// Fast approaches that are met in flight are the flight's business.
 void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) const {
     const FlightRules rules = rulesFor(h);
     std::erase_if(io_contacts, [&](const Contact& c) {
-        if (!bodies_[static_cast<std::size_t>(c.a)].awake) return true;
         return flown(c, rules) && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
     });
 }
@@ -130,6 +146,7 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
     }
     if (left == bodies_.size()) return;
     bodies_.resize(left), near_.resize(left);
+    findKept();
     compose();
 }
 

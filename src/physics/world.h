@@ -10,6 +10,7 @@
 // bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no ball is awake a
 // step only counts the time.
 #include "physics/flight.h"
+#include "physics/islands.h"
 
 #include <string>
 
@@ -95,19 +96,24 @@ private:
     std::vector<Contact> touching(double h);
     void touchStatics(std::vector<Contact>& io_contacts, double h);
     void touchBodies(std::vector<Contact>& io_contacts, double h);
-    std::vector<Motion> rest(std::vector<Contact>& io_contacts, double h);
+    std::vector<Motion> rest(std::span<const Contact> contacts, const Islands& islands, double h);
     void dropImpacts(std::vector<Contact>& io_contacts, double h) const;
     std::vector<Motion> falling() const;
     void fly(std::span<const Motion> accelerations, double h);
-    void wakeAndSleep(std::span<const Contact> contacts);
+    void wakeAndSleep(const Islands& islands);
+    double depthOf(const Contact& c) const;
     void pushApart(std::span<const Contact> contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
-    void carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
+    std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
+    void settleCrowds(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
+    template <bool spins, bool drags>
+    void settleCrowd(std::span<Contact> contacts, double h, std::span<Motion> io_motion, std::span<Motion> io_moving);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
     bool isOf(const Kept& kept, const Contact& c) const;
     void takeKept(std::span<Contact> contacts) const;
     void keep(std::span<const Contact> contacts);
+    void findKept();
     void countStill(std::span<const Contact> contacts, double h);
     void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
     void tame();
@@ -121,6 +127,7 @@ private:
     std::vector<Body> bodies_;
     std::vector<NearStatics> near_;                            // of each body; remembered, not state
     std::vector<Kept> kept_;
+    std::vector<std::uint32_t> kept_begin_;                    // of each body's; one more, the end
     ManifoldMemory memory_;
     std::vector<std::string> notes_;
     std::vector<ObjectId> gone_;
