@@ -17,6 +17,7 @@ struct ApproachLimits {
     double stride = 0;      // no obstacle is passed over unseen that is met deeper than its stride²/(8 r), m
     double bounce = 0;      // an approach faster than this is an impact wherever the gap becomes negative, m/s
     double depth = 0;       // a slower one is let in as deep as this, m: where it rests, the solver keeps it up
+    double noise = 0;       // of the depth: what two measured gaps may err by against one another
 };
 
 struct Meeting {
@@ -62,7 +63,7 @@ template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, co
     // The time between t and t1 when the gap passes 0; where it is about 0 at t already, since they rest on one another
     // there and meet elsewhere, when it passes a little less.
     const auto root = [&](GapAt a, double t1, GapAt b) {
-        const double level = a.gap > 1e-3 * limits.depth ? 0 : a.gap - 1e-3 * limits.depth;
+        const double noise = limits.noise * limits.depth, level = a.gap > noise ? 0 : a.gap - noise;
         double lo = t, hi = t1, ga = a.gap - level, gb = b.gap - level;
         if (gb >= 0) return t1;
         for (int i = 0, side = 0; i < 100 && hi - lo > 1e-15; ++i) {

@@ -9,6 +9,10 @@
 namespace mb {
 
 namespace {
+
+// Of the depth: a ball's gap is known to rounding; of two curved shapes the lowest place is looked for, and not met exactly.
+constexpr double kBallNoise = 1e-3, kShapeNoise = 0.25;
+
 /// Of the points a ball shows to what it meets, none is faster than its centre.
 double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
 }  // namespace
@@ -159,7 +163,7 @@ void Flight::expectStatic(std::size_t i) {
     if (paths_[i].events == 0 && !metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration;
     const double speed = glm::length(b.velocity) + (to - from) * glm::length(paths_[i].acceleration);
-    const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.inner)};
+    const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.inner), kBallNoise};
     if (rules_.proofs && noStaticAhead(i, to - from, limits)) return;
     const auto gap_at = [&](double t) {
         near_[i].moveTo(field_, positionAt(i, t), b.radius, counts_);
@@ -206,7 +210,7 @@ void Flight::expectPair(std::size_t i, std::size_t j) {
     const double speed = glm::length(velocityAt(i, from) - velocityAt(j, from)) + (to - from) * glm::length(bend);
     const double smaller = std::min(bodies_[i].radius, bodies_[j].radius);
     const double stride = bend == glm::dvec3{0} ? speed * (to - from) : kNear * smaller;
-    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(smaller)};
+    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(smaller), kBallNoise};
     ++counts_.body_gaps;
     if (rules_.proofs) {
         // No field is asked: what errs is the rounding of the positions.
@@ -251,7 +255,7 @@ void Flight::expectStaticOfShape(std::size_t i) {
     const Body& b = bodies_[i];
     if (!metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration, speed = fastest(i), stride = kNear * b.inner;
-    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(b.inner)};
+    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(b.inner), kShapeNoise};
     if (rules_.proofs && cannotReach(field_.room(positionAt(i, from), b.radius), to - from, limits, b.radius)) return;
     ++counts_.searches;
     const Meeting m = firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits);
@@ -263,7 +267,7 @@ void Flight::expectPairOfShapes(std::size_t i, std::size_t j) {
     const Body &x = bodies_[i], &y = bodies_[j];
     if (!metInFlight(x, y, rules_)) return;
     const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration, inner = std::min(x.inner, y.inner);
-    const ApproachLimits limits{fastest(i) + fastest(j), kNear * inner, rules_.bounce, restDepth(inner)};
+    const ApproachLimits limits{fastest(i) + fastest(j), kNear * inner, rules_.bounce, restDepth(inner), kShapeNoise};
     const double room = glm::length(positionAt(i, from) - positionAt(j, from)) - x.radius - y.radius;
     ++counts_.body_gaps;
     if (rules_.proofs && cannotReach(room - 1e-9 * (x.radius + y.radius), to - from, limits, inner)) return;

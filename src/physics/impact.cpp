@@ -8,7 +8,7 @@
 
 namespace mb {
 namespace {
-constexpr int kImpactRounds = 60;
+constexpr int kImpactRounds = 15;
 
 /// Of the contacts from `first` on keeps those nearer than the depth. They were looked for as the search for the impact looked, so
 /// that what it found is among them.

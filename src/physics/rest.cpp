@@ -82,7 +82,7 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
     if (!any) return;
     std::vector<Motion> motion(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) motion[i] = motionOf(bodies_[i]);
-    solve(bodies_, contacts, motion, 4 * knobs_.iterations, stages_, counts_);
+    solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = motion[i].velocity, bodies_[i].spin = motion[i].spin;
 }
 

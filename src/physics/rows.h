@@ -16,6 +16,8 @@ struct Row {
     double target, push, friction;
     double inverse_a = 0, inverse_b = 0;   // masses; 0: static
     double normal_mass = 0;
+    double step = 0, way = 0;              // of the push: what the last turn added, and the way the rounds go (goOn)
+    glm::dvec3 drag_step{0}, drag_way{0};
 
     Row(Contact& c, Motion& of_a, Motion& of_b)
         : contact(&c), a(&of_a), b(&of_b), normal(c.normal), slip(c.slip), drag(c.drag), target(c.target), push(c.push), friction(c.pairing.friction) {}
@@ -135,11 +137,16 @@ template <bool drags, class Row> void applyFirst(const Row& row) {
         if (row.drag != glm::dvec3{0}) row.dragBy(row.drag);
 }
 
-/// Turns the drag towards the slip that is wanted, within Coulomb's cone; says by how much it changed a velocity, squared.
-template <class Row> double turnDrag(Row& io_row, std::uint64_t& io_drags) {
+/// What turns did.
+struct Change {
+    double fastest = 0;  // m²/s²: the square of the most that a velocity was changed by
+    double energy = 0;   // the sum of the impulses' squares, each over the mass it meets, J
+    void add(const Change& c) { fastest = std::max(fastest, c.fastest), energy += c.energy; }
+};
+
+/// Turns the drag towards the slip that is wanted, within Coulomb's cone.
+template <class Row> void turnDrag(Row& io_row) {
     const double limit = io_row.friction * io_row.push;
-    if (limit == 0 && io_row.drag == glm::dvec3{0}) return 0;
-    ++io_drags;
     const glm::dvec3 wanted = io_row.slip - io_row.slipping();
     glm::dvec3 drag = io_row.drag + io_row.dragFor(wanted);
     if (glm::dot(drag, drag) > limit * limit) {
@@ -147,22 +154,41 @@ template <class Row> double turnDrag(Row& io_row, std::uint64_t& io_drags) {
         drag = io_row.drag + io_row.lightest() * wanted;
         if (const double square = glm::dot(drag, drag); square > limit * limit) drag *= limit / std::sqrt(square);
     }
-    const glm::dvec3 change = drag - io_row.drag;
+    io_row.drag_step = drag - io_row.drag;
     io_row.drag = drag;
-    io_row.dragBy(change);
-    const double inverse = io_row.inverse_a + io_row.inverse_b;
-    return inverse * inverse * glm::dot(change, change);
+    io_row.dragBy(io_row.drag_step);
 }
 
-/// One turn towards the row's target; says by how much it changed a velocity at the contact, squared.
-template <bool drags, class Row> double turn(Row& io_row, std::uint64_t& io_drags) {
-    const double wanted = io_row.push + io_row.normal_mass * (io_row.target - io_row.approach());
-    const double pushed = std::max(wanted, 0.0), change = pushed - io_row.push;
-    io_row.push = pushed;
-    io_row.pushBy(change);
-    const double changed = change / io_row.normal_mass;
-    if constexpr (!drags) return changed * changed;
-    else return std::max(changed * changed, turnDrag(io_row, io_drags));
+/// One turn towards the row's target.
+template <bool drags, class Row> Change turn(Row& io_row, std::uint64_t& io_drags) {
+    const double pushed = std::max(io_row.push + io_row.normal_mass * (io_row.target - io_row.approach()), 0.0);
+    io_row.step = pushed - io_row.push, io_row.push = pushed;
+    io_row.pushBy(io_row.step);
+    const double by = io_row.step / io_row.normal_mass;
+    Change change{by * by, io_row.step * by};
+    if constexpr (drags) {
+        io_row.drag_step = {};
+        if (io_row.friction == 0 || (io_row.push == 0 && io_row.drag == glm::dvec3{0})) return change;
+        ++io_drags;
+        turnDrag(io_row);
+        const double square = glm::dot(io_row.drag_step, io_row.drag_step), inverse = io_row.inverse_a + io_row.inverse_b;
+        change.fastest = std::max(change.fastest, inverse * inverse * square), change.energy += square / io_row.normal_mass;
+    }
+    return change;
+}
+
+/// Goes on in the way the rounds have gone: a share of the last way, and to it the last turn's step is added. The next turn brings
+/// back what goes too far. With Fletcher's and Reeves' share, what the last round changed over what the one before did, these are
+/// the nonsmooth nonlinear conjugate gradients of Silcowitz, Niebe, Erleben, "A Nonsmooth Nonlinear Conjugate Gradient Method for
+/// Interactive Contact Force Problems" (2010). A share of 0 begins anew.
+template <bool drags, class Row> void goOn(Row& io_row, double share) {
+    io_row.way *= share;
+    if (io_row.way != 0) io_row.push += io_row.way, io_row.pushBy(io_row.way);
+    io_row.way += io_row.step;
+    if constexpr (!drags) return;
+    io_row.drag_way *= share;
+    if (io_row.drag_way != glm::dvec3{0}) io_row.drag += io_row.drag_way, io_row.dragBy(io_row.drag_way);
+    io_row.drag_way += io_row.drag_step;
 }
 
 inline constexpr double kSettled = 1e-24;  // m²/s²: rounds end that change no velocity by more than the root

@@ -79,11 +79,8 @@ std::vector<Motion> PhysicsWorld::rest(std::span<const Contact> contacts, const 
         std::vector<Contact>& to = balls && pairs ? crowds : others;
         for (std::size_t k = begin; k < end; ++k) to.push_back(contacts[order[k]]), to.back().island = island;
     }
-    if (!others.empty()) {
-        pushApart(others, h);
-        dropImpacts(others, h);
-    }
-    dropImpacts(crowds, h);
+    for (std::vector<Contact>* some : {&others, &crowds})
+        if (!some->empty()) pushApart(*some, h), dropImpacts(*some, h);
     if (!others.empty()) {
         stopApproaches(others, h);
         others = carry(others, h, accelerations);

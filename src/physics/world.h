@@ -106,8 +106,6 @@ private:
     void stopApproaches(std::span<Contact> contacts, double h);
     std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
     void settleCrowds(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
-    template <bool spins, bool drags>
-    void settleCrowd(std::span<Contact> contacts, double h, std::span<Motion> io_motion, std::span<Motion> io_moving);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
     bool isOf(const Kept& kept, const Contact& c) const;

@@ -9,9 +9,9 @@
 using namespace mb;
 using namespace mb::test;
 
-TEST_CASE("case 60: k rounds of the solver leave (R/(R+1))^k of a heavy ball's fall onto a light one") {
-    struct Row { double ratio; int rounds; };
-    for (const Row& row : {Row{10, 10}, Row{100, 50}, Row{1e6, 1000}}) {
+TEST_CASE("case 60: of a heavy ball's fall onto a light one the rounds leave less than plain ones, whose rest is (R/(R+1))^k") {
+    struct Row { double ratio; int rounds; double most; };
+    for (const Row& row : {Row{10, 12, 0.04}, Row{100, 48, 0.012}, Row{1e6, 1000, 0.65}}) {
         Scene s = scene(1.0 / 120, 0, 0);
         ball(s, {0, 0.1, 0}, 0.1);
         ball(s, {0, 0.3, 0}, 0.1, {}, row.ratio);
@@ -21,17 +21,19 @@ TEST_CASE("case 60: k rounds of the solver leave (R/(R+1))^k of a heavy ball's f
         std::vector<Motion> motion(2);
         motion[0].velocity = motion[1].velocity = {0, -1, 0};
         StepCounts counts;
-        solve(w.bodies(), contacts, motion, row.rounds, w.stages(), counts);
-        const double want = std::pow(row.ratio / (row.ratio + 1), row.rounds);
-        CHECK(-motion[1].velocity.y == doctest::Approx(want).epsilon(1e-9));
-        MESSAGE("R = ", row.ratio, ", ", row.rounds, " rounds: ", -motion[1].velocity.y, " left");
+        solve(w.bodies(), contacts, motion, row.rounds / 4, w.stages(), counts);  // of so few contacts four times as many are made
+        CHECK(counts.rounds == static_cast<std::uint64_t>(row.rounds));
+        const double plain = std::pow(row.ratio / (row.ratio + 1), row.rounds), left = std::fabs(motion[1].velocity.y);
+        CHECK(left <= row.most);
+        CHECK(left < plain);
+        MESSAGE("R = ", row.ratio, ", ", row.rounds, " rounds: ", left, " left, by plain ones ", plain);
     }
 }
 
 TEST_CASE("case 60: a heavy ball on a light one, and a heavy box on two small ones: what sinks in for each ratio of masses") {
     for (const bool boxes : {false, true})
         for (const double ratio : {1.0, 10.0, 100.0, 1e3, 1e6}) {
-            if (boxes && ratio > 10) continue;  // open
+            
             Scene s = scene(1.0 / 120, 0, 0.5);
             if (boxes) {
                 floor(s);
@@ -46,7 +48,8 @@ TEST_CASE("case 60: a heavy ball on a light one, and a heavy box on two small on
             double deepest = 0;
             while (w.time_s() < 3) w.step(), deepest = std::max(deepest, w.maxPenetration());
             CAPTURE(boxes); CAPTURE(ratio);
-            CHECK(deepest <= (ratio <= 100 ? 1e-3 : 1e-2));  // the range the solver is good for; beyond it is only finite
+            if (ratio <= (boxes ? 100 : 1000)) CHECK(deepest <= 1e-3);  // the range the solver is good for; beyond it is only finite
+            CHECK(std::isfinite(deepest));
             CHECK(w.removed() == 0);
             MESSAGE(std::string_view(boxes ? "boxes" : "balls"), ", mass ratio ", ratio, ": deepest ", deepest);
         }
