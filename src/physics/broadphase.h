@@ -1,5 +1,6 @@
 #pragma once
-// Which balls may meet: the pairs whose boxes overlap.
+// Which bodies may meet: the pairs whose boxes overlap.
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <span>
@@ -8,15 +9,49 @@
 
 namespace mb {
 
-/// A ball and how far around its centre it may reach.
+/// A body and how far around its centre it may reach, m; finite, and more than 0.
 struct Reach {
     glm::dvec3 centre{0};
     double reach = 0;
 };
 
-/// Every pair (i < j) whose boxes overlap, sorted: by sweeping along the axis the centres are spread most widely on.
-/// The same set as comparing each with each. Source: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies" (1992).
-std::vector<std::pair<int, int>> overlappingPairs(std::span<const Reach> balls);
+/// Every pair (i < j) whose boxes overlap, sorted: the same set as comparing each with each. Bodies of about one size lie in one
+/// grid, whose cells are as large as the largest of them, and look at the cells around theirs, there and in every coarser grid, so
+/// that the work grows with the bodies and the pairs, wherever they are (a hierarchical grid; Ericson, "Real-Time Collision
+/// Detection", 2005, section 7.2).
+std::vector<std::pair<int, int>> overlappingPairs(std::span<const Reach> bodies);
+
+/// The pairs that may meet for some time: found once, and good for as long as every body stays within the reach it was given
+/// around a place that drifts. (Of things that fall together the drift is most of what moves.)
+class PairList {
+public:
+    /// From now on, of bodies that drift at `drift` m/s but for what their reach allows.
+    void find(std::vector<Reach> bodies, glm::dvec3 drift) {
+        reach_ = std::move(bodies), drift_ = drift, age_ = 0, pairs_ = overlappingPairs(reach_);
+    }
+    void forget() { reach_.clear(), pairs_.clear(); }
+    void pass(double seconds) { age_ += seconds; }
+    glm::dvec3 drift() const { return drift_; }
+    /// Whether there are so many bodies and all stay within their reach, each given how far around its centre it will need.
+    template <class ReachOf> bool holds(std::size_t bodies, ReachOf reach_of) const {
+        if (bodies != reach_.size()) return false;
+        const glm::dvec3 drifted = age_ * drift_;
+        for (std::size_t i = 0; i < bodies; ++i) {
+            const Reach needed = reach_of(i);
+            const glm::dvec3 off = needed.centre - reach_[i].centre - drifted;
+            const double room = reach_[i].reach - needed.reach;
+            if (!(room >= 0 && glm::dot(off, off) <= room * room)) return false;
+        }
+        return true;
+    }
+    std::span<const std::pair<int, int>> pairs() const { return pairs_; }
+
+private:
+    std::vector<Reach> reach_;
+    glm::dvec3 drift_{0};
+    double age_ = 0;                       // s
+    std::vector<std::pair<int, int>> pairs_;
+};
 
 inline bool overlap(const Reach& a, const Reach& b) {
     const double r = a.reach + b.reach;

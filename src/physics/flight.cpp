@@ -12,9 +12,6 @@ namespace {
 
 // Of the depth: a ball's gap is known to rounding; of two curved shapes the lowest place is looked for, and not met exactly.
 constexpr double kBallNoise = 1e-3, kShapeNoise = 0.25;
-
-/// Of the points a ball shows to what it meets, none is faster than its centre.
-double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
 }  // namespace
 
 double travelOf(const Body& body, const FlightRules& rules) {
@@ -38,18 +35,16 @@ bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
 }
 
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
-               std::span<const Motion> accelerations, StepCounts& io_counts)
-    : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), collider_(rules.world, field, io_counts), paths_(bodies.size()) {
+               std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts)
+    : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), collider_(rules.world, field, io_counts),
+      paths_(bodies.size()), pairs_(pairs) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin;
-    if (!has(Stage::continuous)) return;
-    motion_.resize(bodies.size());
-    neighbours_.resize(bodies.size());
-    if (has(Stage::broad_phase)) findNeighbours();
 }
 
-/// The pairs that may meet within the part.
-void Flight::findNeighbours() {
+/// Where each body may get within the part, and whom it may meet there: before anything is advanced.
+void Flight::rememberReach() {
+    if (!has(Stage::broad_phase) || !reach_.empty()) return;
     const double h = rules_.duration;
     reach_.resize(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -57,10 +52,8 @@ void Flight::findNeighbours() {
         const double pull = std::max(glm::length(paths_[i].acceleration), std::fabs(rules_.world.gravity));
         reach_[i] = {b.position, b.radius + (b.awake ? glm::length(b.velocity) * h + 0.5 * pull * h * h : 0)};
     }
-    const std::vector<std::pair<int, int>> pairs = overlappingPairs(reach_);
-    ++counts_.broad_phases, counts_.pairs += pairs.size();
-    if (!has(Stage::body_contacts)) return;
-    for (const auto& [i, j] : pairs) {
+    neighbours_.resize(bodies_.size());
+    for (const auto& [i, j] : pairs_) {
         neighbours_[static_cast<std::size_t>(i)].push_back(j);
         neighbours_[static_cast<std::size_t>(j)].push_back(i);
     }
@@ -68,13 +61,10 @@ void Flight::findNeighbours() {
 
 void Flight::run() {
     if (has(Stage::continuous)) {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            if (!bodies_[i].awake) continue;
-            expectStatic(i);
-            for (const int j : neighbours_[i])
-                if (j > static_cast<int>(i) || !bodies_[static_cast<std::size_t>(j)].awake) expectPair(i, static_cast<std::size_t>(j));
-        }
+        for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
+        for (const auto& [i, j] : pairs_) expectPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
     }
+    if (!events_.empty()) motion_.resize(bodies_.size()), rememberReach();
     while (!events_.empty()) {
         const Event event = events_.top();
         events_.pop();
@@ -280,6 +270,7 @@ void Flight::expectPairOfShapes(std::size_t i, std::size_t j) {
 
 void Flight::expectAll(std::size_t i) {
     expectStatic(i);
+    if (neighbours_.empty()) return;
     for (const int j : neighbours_[i]) expectPair(i, static_cast<std::size_t>(j));
 }
 

@@ -25,6 +25,9 @@ struct FlightRules {
     bool proofs = true;       // a search that is proved to find nothing is not made
 };
 
+/// How fast its turning makes a point of the body's surface, of those it shows to what it meets, m/s. A ball's is 0: none is
+/// faster than its centre.
+inline double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
 /// How far a point of the body may get in a part, m; and one of a against one of b.
 double travelOf(const Body& body, const FlightRules& rules);
 double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
@@ -35,9 +38,10 @@ bool metInFlight(const Body& a, const Body& b, const FlightRules& rules);
 
 class Flight {
 public:
-    /// `accelerations` (m/s², rad/s²) hold from the start of the part to the body's first impact.
+    /// `accelerations` (m/s², rad/s²) hold from the start of the part to the body's first impact; `pairs` are those that may meet
+    /// until then.
     Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
-           std::span<const Motion> accelerations, StepCounts& io_counts);
+           std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts);
     /// Moves every body to the end of the part.
     void run();
 
@@ -64,7 +68,7 @@ private:
 
     bool has(Stage s) const { return rules_.stages.has(s); }
     // Along the paths (flight.cpp).
-    void findNeighbours();
+    void rememberReach();
     glm::dvec3 positionAt(std::size_t i, double t) const;
     Pose poseAt(std::size_t i, double t) const;
     Motion motionAt(std::size_t i, double t) const;
@@ -99,8 +103,9 @@ private:
     Collider collider_;
     std::vector<Path> paths_;
     std::vector<Motion> motion_;                 // scratch of the solver
-    std::vector<Reach> reach_;                   // where each may get, from the start of the part
-    std::vector<std::vector<int>> neighbours_;
+    std::span<const std::pair<int, int>> pairs_;
+    std::vector<Reach> reach_;                   // from the first impact on: where each may get, from the start of the part
+    std::vector<std::vector<int>> neighbours_;   // the same as the pairs, and more where an impact makes a body faster
     std::priority_queue<Event> events_;
 };
 

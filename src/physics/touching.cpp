@@ -32,25 +32,49 @@ void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts, double h) {
     }
 }
 
+/// How far around its centre a body may come to be within a time, against bodies that drift, m.
+Reach PhysicsWorld::reachOf(std::size_t i, glm::dvec3 drift, double pull, double time) const {
+    const Body& b = bodies_[i];
+    const double fastest = glm::length(b.velocity - drift) + turningSpeed(b) + std::max(pull, std::fabs(world_.gravity)) * time;
+    return {b.position, b.radius + restDepth(b.inner) + fastest * time};
+}
+
+/// Sees to it that the list of pairs holds through the part. What is found anew is good for a step, and if little moves for more.
+/// `accelerations`: of the bodies, if they are known.
+void PhysicsWorld::coverPairs(double h, std::span<const Motion> accelerations) {
+    const auto needs = [&](std::size_t i) {
+        return reachOf(i, pairs_.drift(), accelerations.empty() ? 0 : glm::length(accelerations[i].velocity), h);
+    };
+    if (pairs_.holds(bodies_.size(), needs)) return;
+    constexpr double kMore = 0.05;  // of the radius
+    glm::dvec3 drift{0};
+    for (const Body& b : bodies_) drift += b.velocity / static_cast<double>(bodies_.size());
+    std::vector<Reach> reach;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const double pull = accelerations.empty() ? 0 : glm::length(accelerations[i].velocity);
+        reach.push_back(reachOf(i, drift, pull, knobs_.dt));
+        reach.back().reach += kMore * bodies_[i].radius;
+    }
+    pairs_.find(std::move(reach), drift);
+    ++counts_.broad_phases, counts_.pairs += pairs_.pairs().size();
+}
+
 void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts, double h) {
+    coverPairs(h);
+    if (!has(Stage::body_contacts)) return;
     const FlightRules rules = rulesFor(h);
-    std::vector<double> travel(bodies_.size());
     std::vector<Reach> reach(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& b = bodies_[i];
-        travel[i] = b.awake ? travelOf(b, rules) : 0;
-        reach[i] = {b.position, b.radius + restDepth(b.inner) + travel[i]};
+        reach[i] = {b.position, b.radius + restDepth(b.inner) + (b.awake ? travelOf(b, rules) : 0)};
     }
-    const std::vector<std::pair<int, int>> pairs = overlappingPairs(reach);
-    ++counts_.broad_phases, counts_.pairs += pairs.size();
-    if (!has(Stage::body_contacts)) return;
     const Collider collider(world_, field_, counts_, &memory_);
-    for (const auto& [i, j] : pairs) {
+    for (const auto& [i, j] : pairs_.pairs()) {
         const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+        const glm::dvec3 apart = reach[k].centre - reach[l].centre;
+        const double most = reach[k].reach + reach[l].reach;
+        if (glm::dot(apart, apart) > most * most) continue;
         const Body &a = bodies_[k], &b = bodies_[l];
-        if (!a.isBall() || !b.isBall()) {
-            if (glm::length(a.position - b.position) > reach[k].reach + reach[l].reach) continue;
-        }
         const double margin = restDepth(std::min(a.inner, b.inner)) + (metInFlight(a, b, rules) ? 0 : travelBetween(a, b, rules));
         collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_contacts);
     }

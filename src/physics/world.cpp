@@ -59,6 +59,7 @@ void PhysicsWorld::part(double h) {
     if (has(Stage::sleeping)) wakeAndSleep(islands);
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
     if (has(Stage::flight)) fly(accelerations, h);
+    pairs_.pass(h);
     if (has(Stage::sleeping)) countStill(contacts, h);
     removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
 }
@@ -106,7 +107,9 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
-    Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, counts_);
+    const bool meets = has(Stage::body_contacts) && has(Stage::broad_phase);
+    if (meets) coverPairs(h, accelerations);
+    Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, meets ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += static_cast<std::uint64_t>(flight.held);
@@ -144,6 +147,7 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
     if (left == bodies_.size()) return;
     bodies_.resize(left), near_.resize(left);
     findKept();
+    pairs_.forget();
     compose();
 }
 

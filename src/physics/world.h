@@ -96,6 +96,8 @@ private:
     std::vector<Contact> touching(double h);
     void touchStatics(std::vector<Contact>& io_contacts, double h);
     void touchBodies(std::vector<Contact>& io_contacts, double h);
+    Reach reachOf(std::size_t i, glm::dvec3 drift, double pull, double time) const;
+    void coverPairs(double h, std::span<const Motion> accelerations = {});
     std::vector<Motion> rest(std::span<const Contact> contacts, const Islands& islands, double h);
     void dropImpacts(std::vector<Contact>& io_contacts, double h) const;
     std::vector<Motion> falling() const;
@@ -124,6 +126,7 @@ private:
     StaticField field_;
     std::vector<Body> bodies_;
     std::vector<NearStatics> near_;                            // of each body; remembered, not state
+    PairList pairs_;                                           // remembered, not state
     std::vector<Kept> kept_;
     std::vector<std::uint32_t> kept_begin_;                    // of each body's; one more, the end
     ManifoldMemory memory_;
