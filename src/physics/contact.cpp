@@ -14,8 +14,9 @@ namespace {
 /// The rounds of one island.
 template <bool spins, bool drags>
 void solveIsland(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, StepCounts& io_counts) {
-    std::vector<BallRow<spins>> ball_rows;
-    std::vector<LeverRow<spins>> lever_rows;
+    static thread_local std::vector<BallRow<spins>> ball_rows;  // their memory is used again
+    static thread_local std::vector<LeverRow<spins>> lever_rows;
+    ball_rows.clear(), lever_rows.clear();
     Motion still;
     for (Contact& c : contacts) {
         Motion &a = motion[static_cast<std::size_t>(c.a)], &b = c.b == kStatic ? still : motion[static_cast<std::size_t>(c.b)];

@@ -59,8 +59,17 @@ void Flight::rememberReach() {
     }
 }
 
+bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules) {
+    double furthest = 0, thinnest = INFINITY;
+    for (const Body& b : bodies) {
+        if (b.isBall() && pairing(rules.world, b).restitution != 0) return true;
+        furthest = std::max(furthest, travelOf(b, rules)), thinnest = std::min(thinnest, b.inner);
+    }
+    return 2 * furthest > kNear * thinnest;
+}
+
 void Flight::run() {
-    if (has(Stage::continuous)) {
+    if (has(Stage::continuous) && anyMetInFlight(bodies_, rules_)) {
         for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
         for (const auto& [i, j] : pairs_) expectPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
     }

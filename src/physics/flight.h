@@ -35,6 +35,8 @@ double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
 /// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew.)
 bool metInFlight(const Body& a, const FlightRules& rules);
 bool metInFlight(const Body& a, const Body& b, const FlightRules& rules);
+/// False only if nothing at all is.
+bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules);
 
 class Flight {
 public:

@@ -42,18 +42,18 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
 
 /// Moves overlapping bodies apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
 /// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
-void PhysicsWorld::pushApart(std::span<const Contact> contacts, double h) {
+void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     // The displacements are solved for as velocities are: metres in place of metres a second, and no friction.
-    std::vector<Contact> overlaps(contacts.begin(), contacts.end());
     bool any = false;
-    for (Contact& c : overlaps) {
+    for (Contact& c : io_contacts) {
         const double deep = -c.gap - 0.5 * depthOf(c);
         any = any || deep > 0;
         c.target = deep > 0 ? knobs_.push_out * deep : deep;
     }
     if (!any) return;
     std::vector<Motion> moved(bodies_.size());
-    solve(bodies_, overlaps, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
+    solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
+    for (Contact& c : io_contacts) c.push = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Body& b = bodies_[i];
         const double length = glm::length(moved[i].velocity) + (b.isBall() ? 0 : b.radius * glm::length(moved[i].spin));

@@ -8,8 +8,9 @@ namespace mb {
 
 /// Contacts at the start of a part of length h; the pairs behind the static ones. Of those that are met in flight, only what touches
 /// now; of the others also what lies ahead.
-std::vector<Contact> PhysicsWorld::touching(double h) {
-    std::vector<Contact> contacts;
+std::span<const Contact> PhysicsWorld::touching(double h) {
+    std::vector<Contact>& contacts = scratch_.found;
+    contacts.clear();
     memory_.begin();
     if (has(Stage::static_contacts)) touchStatics(contacts, h);
     if (has(Stage::broad_phase)) touchBodies(contacts, h);

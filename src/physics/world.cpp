@@ -54,7 +54,7 @@ void PhysicsWorld::part(double h) {
         return;
     }
     tame();
-    std::vector<Contact> contacts = touching(h);
+    const std::span<const Contact> contacts = touching(h);
     const Islands islands(bodies_.size(), contacts);
     if (has(Stage::sleeping)) wakeAndSleep(islands);
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
@@ -67,7 +67,8 @@ void PhysicsWorld::part(double h) {
 /// What lasts of the contacts keeps the bodies up: their accelerations through the part. Crowds are settled, the others carried.
 std::vector<Motion> PhysicsWorld::rest(std::span<const Contact> contacts, const Islands& islands, double h) {
     std::vector<Motion> accelerations = falling();
-    std::vector<Contact> crowds, others;
+    std::vector<Contact>&crowds = scratch_.crowds, &others = scratch_.others;
+    crowds.clear(), others.clear();
     const std::vector<std::uint32_t> order = islands.sorted(contacts);
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         const int island = islands.of(contacts[order[begin]]);
@@ -107,7 +108,7 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
-    const bool meets = has(Stage::body_contacts) && has(Stage::broad_phase);
+    const bool meets = has(Stage::body_contacts) && has(Stage::broad_phase) && anyMetInFlight(bodies_, rulesFor(h));
     if (meets) coverPairs(h, accelerations);
     Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, meets ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
     flight.run();

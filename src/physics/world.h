@@ -80,6 +80,14 @@ private:
         glm::dvec3 drag{0};
     };
 
+    /// Memory of a part that the next uses again. A copy of a world has its own.
+    struct Scratch {
+        std::vector<Contact> found, crowds, others;
+        Scratch() = default;
+        Scratch(const Scratch&) {}
+        Scratch& operator=(const Scratch&) { return *this; }
+    };
+
     struct Made {                                              // a shape that a body was made of
         Scene shape;
         double mass = 0, density = 0;
@@ -93,7 +101,7 @@ private:
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
     bool flown(const Contact& c, const FlightRules& rules) const;
     bool allBalls() const { return shapes_ == 0; }
-    std::vector<Contact> touching(double h);
+    std::span<const Contact> touching(double h);
     void touchStatics(std::vector<Contact>& io_contacts, double h);
     void touchBodies(std::vector<Contact>& io_contacts, double h);
     Reach reachOf(std::size_t i, glm::dvec3 drift, double pull, double time) const;
@@ -104,7 +112,7 @@ private:
     void fly(std::span<const Motion> accelerations, double h);
     void wakeAndSleep(const Islands& islands);
     double depthOf(const Contact& c) const;
-    void pushApart(std::span<const Contact> contacts, double h);
+    void pushApart(std::span<Contact> io_contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
     std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
     void settleCrowds(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
@@ -130,6 +138,7 @@ private:
     std::vector<Kept> kept_;
     std::vector<std::uint32_t> kept_begin_;                    // of each body's; one more, the end
     ManifoldMemory memory_;
+    Scratch scratch_;
     std::vector<std::string> notes_;
     std::vector<ObjectId> gone_;
     StageChoice choice_;
