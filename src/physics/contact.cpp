@@ -11,6 +11,25 @@
 namespace mb {
 namespace {
 
+template <bool drags, class Row> void start(Row& io_row) {
+    const Contact& c = *io_row.contact;
+    io_row.normal = c.normal, io_row.target = c.target, io_row.push = c.push, io_row.friction = c.pairing.friction, io_row.drag = c.drag;
+    applyFirst<drags>(io_row, *io_row.a, *io_row.b);
+}
+
+template <bool drags, class Row> void round(std::vector<Row>& io_rows, Change<double>& io_change) {
+    for (Row& row : io_rows) turn<drags>(row, *row.a, *row.b, row.contact->slip, io_change);
+}
+
+template <bool drags, class Row> void goOn(std::vector<Row>& io_rows, double share) {
+    for (Row& row : io_rows) goOn<drags>(row, *row.a, *row.b, share);
+}
+
+/// Gives the impulses back to the contacts.
+template <class Row> void finish(const std::vector<Row>& rows) {
+    for (const Row& row : rows) row.contact->push = row.push, row.contact->drag = row.drag;
+}
+
 /// The rounds of one island.
 template <bool spins, bool drags>
 void solveIsland(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, StepCounts& io_counts) {
@@ -18,31 +37,23 @@ void solveIsland(std::span<const Body> bodies, std::span<Contact> contacts, std:
     static thread_local std::vector<LeverRow<spins>> lever_rows;
     ball_rows.clear(), lever_rows.clear();
     Motion still;
+    std::uint64_t rough = 0;
     for (Contact& c : contacts) {
         Motion &a = motion[static_cast<std::size_t>(c.a)], &b = c.b == kStatic ? still : motion[static_cast<std::size_t>(c.b)];
-        if (betweenBalls(bodies, c)) applyFirst<drags>(ball_rows.emplace_back(bodies, c, a, b));
-        else applyFirst<drags>(lever_rows.emplace_back(bodies, c, a, b));
+        if (betweenBalls(bodies, c)) start<drags>(ball_rows.emplace_back(bodies, c, a, b));
+        else start<drags>(lever_rows.emplace_back(bodies, c, a, b));
+        rough += c.pairing.friction != 0;
     }
-    const auto each = [&](const auto& visit) { std::ranges::for_each(ball_rows, visit), std::ranges::for_each(lever_rows, visit); };
-    double before = 0;
-    for (int round = 1;; ++round) {
-        Change changed;
-        each([&](auto& io_row) { changed.add(turn<drags>(io_row, io_counts.drags)); });
-        ++io_counts.rounds;
-        if (changed.fastest <= kSettled || round >= rounds) break;
-        // Rounds alone creep where much lies on little: the way they went is gone on, shortened as the steps shorten.
-        const double share = before > 0 ? changed.energy / before : 0;
-        before = changed.energy;
-        each([&](auto& io_row) { goOn<drags>(io_row, share <= 1 ? share : 0); });
+    Pace pace(rounds);
+    for (;;) {
+        Change<double> changed;
+        round<drags>(ball_rows, changed), round<drags>(lever_rows, changed);
+        if (!pace.more(changed)) break;
+        goOn<drags>(ball_rows, pace.share()), goOn<drags>(lever_rows, pace.share());
     }
-    for (const auto& row : ball_rows) row.finish();
-    for (const auto& row : lever_rows) row.finish();
-}
-
-/// How many times the rounds asked for an island gets: a small one is cheap, and its errors are seen.
-int timesFor(std::size_t contacts) {
-    constexpr std::size_t kAffordable = 1024;  // contacts, times rounds asked for
-    return static_cast<int>(std::clamp<std::size_t>(kAffordable / contacts, 1, 4));
+    finish(ball_rows), finish(lever_rows);
+    io_counts.rounds += static_cast<std::uint64_t>(pace.made());
+    if constexpr (drags) io_counts.drags += rough * static_cast<std::uint64_t>(pace.made());
 }
 
 /// Island by island: how many rounds one takes is no other's concern.
@@ -50,11 +61,16 @@ template <bool spins, bool drags>
 void solveIslands(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, StepCounts& io_counts) {
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
         while (end < contacts.size() && contacts[end].island == contacts[begin].island) ++end;
-        solveIsland<spins, drags>(bodies, contacts.subspan(begin, end - begin), motion, rounds * timesFor(end - begin), io_counts);
+        solveIsland<spins, drags>(bodies, contacts.subspan(begin, end - begin), motion, roundsFor(end - begin, rounds), io_counts);
     }
 }
 
 }  // namespace
+
+int roundsFor(std::size_t contacts, int rounds) {
+    constexpr std::size_t kAffordable = 1024;  // contacts, times rounds asked for
+    return rounds * static_cast<int>(std::clamp<std::size_t>(kAffordable / contacts, 1, 4));
+}
 
 bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
     return bodies[static_cast<std::size_t>(c.a)].isBall() && (c.b == kStatic || bodies[static_cast<std::size_t>(c.b)].isBall());

@@ -38,9 +38,13 @@ glm::dvec3 relativeVelocity(const Motion& a, const Motion* b, const Contact& c, 
 /// The same of bodies as they move.
 glm::dvec3 relativeVelocity(std::span<const Body> bodies, const Contact& c, bool spins);
 
+/// How many rounds an island of so many contacts gets, where `rounds` are asked for: a small one, whose errors are seen, up to four
+/// times as many.
+int roundsFor(std::size_t contacts, int rounds);
+
 /// Solves for impulses by turns (sequential impulses; Catto, "Iterative Dynamics with Temporal Coherence", 2005), island by
-/// island, until the last round changed no velocity of the island by more than 1e-12 m/s, or `rounds` is reached, or up to four times as many
-/// where contacts are few; between rounds it goes on in the way they went (rows.h). `motion` is indexed by the body's number. Impulses already in the contacts are applied
+/// island, until the last round changed no velocity of the island by more than 1e-12 m/s, or roundsFor() are made; between rounds it goes on
+/// in the way they went (rows.h). `motion` is indexed by the body's number. Impulses already in the contacts are applied
 /// first. Its rounds are composed of the stages: without friction there is no tangential part, without spin nothing turns.
 void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, Stages stages,
            StepCounts& io_counts);

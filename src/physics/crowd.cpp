@@ -1,35 +1,149 @@
-// Balls that lie on one another: a crowd. How exact the path of one of them is matters less than that all keep apart, for one
-// pass over the contacts a part: the velocities at the end of the part are those the balls move with through it (the
-// semi-implicit Euler rule), so that no contact comes nearer than its gap is.
-#include "physics/world.h"
+#include "physics/crowd.h"
+
+#include "core/effects/effect.h"
+
+#include <array>
+#include <bit>
 
 namespace mb {
 namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+struct LaneEnds {
+    LaneVec velocity, spin;
+};
+
+template <bool drags> MB_INLINE void load(const LaneMotion* motion, const std::array<int, kLanes>& of, LaneEnds& out) {
+    const LaneMotion &a = motion[of[0]], &b = motion[of[1]], &c = motion[of[2]], &d = motion[of[3]];
+    out.velocity = transposed(a.velocity, b.velocity, c.velocity, d.velocity);
+    if constexpr (drags) out.spin = transposed(a.spin, b.spin, c.spin, d.spin);
+}
+template <bool drags> MB_INLINE void store(LaneMotion* out_motion, const std::array<int, kLanes>& of, const LaneEnds& ends) {
+    LaneMotion &a = out_motion[of[0]], &b = out_motion[of[1]], &c = out_motion[of[2]], &d = out_motion[of[3]];
+    transposeBack(ends.velocity, a.velocity, b.velocity, c.velocity, d.velocity);
+    if constexpr (drags) transposeBack(ends.spin, a.spin, b.spin, c.spin, d.spin);
+}
+
+template <bool drags> MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
+    using Batch = Crowd::Batch;
+    LaneEnds a, b;
+    for (const Batch& batch : io_batches) {
+        load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
+        applyFirst<drags>(batch.row, a, b);
+        store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
+    }
+    Pace pace(rounds);
+    for (;;) {
+        Change<Lanes> changed;
+        for (Batch& batch : io_batches) {
+            load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
+            turn<drags>(batch.row, a, b, LaneVec{}, changed);
+            store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
+        }
+        if (!pace.more(changed)) return pace.made();
+        for (Batch& batch : io_batches) {
+            load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
+            goOn<drags>(batch.row, a, b, pace.share());
+            store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
+        }
+    }
+}
+
+using Rounds = int (*)(std::vector<Crowd::Batch>&, LaneMotion*, int);
+template <bool drags> int plainRounds(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
+    return roundsOf<drags>(io_batches, io_motion, rounds);
+}
+#if defined(__x86_64__)
+template <bool drags>
+[[gnu::target("avx2")]] int wideRounds(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
+    return roundsOf<drags>(io_batches, io_motion, rounds);
+}
+#endif
+
+/// The same text compiled twice; both do the same to the bit.
+template <bool drags> Rounds fastestRounds() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return wideRounds<drags>;
+#endif
+    return plainRounds<drags>;
+}
+
 }  // namespace
 
-/// A ball that nothing pushes keeps falling, which is exact; the others move at the velocities found, without acceleration.
-void PhysicsWorld::settleCrowds(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations) {
-    if (contacts.empty()) return;
-    takeKept(contacts);
-    std::vector<Motion> motion(bodies_.size());
-    for (Contact& c : contacts) {
-        c.target = -std::max(c.gap, 0.0) / h;
-        for (const int i : {c.a, c.b})
-            if (i != kStatic) motion[at(i)] = {bodies_[at(i)].velocity + glm::dvec3{0, -world_.gravity * h, 0}, bodies_[at(i)].spin};
+void Crowd::set(std::span<const Body> bodies, std::span<const Contact> contacts, std::span<const std::uint32_t> numbers, Stages stages,
+                std::vector<std::uint64_t>& io_used) {
+    constexpr int kColours = 64;  // the last is of those for whom there was none, each in a batch of its own
+    std::array<std::uint32_t, kColours + 1> begin{};
+    colours_.clear();
+    for (const std::uint32_t number : numbers) {
+        const Contact& c = contacts[number];
+        std::uint64_t none = 0;
+        std::uint64_t &a = io_used[static_cast<std::size_t>(c.a)], &b = c.b == kStatic ? none : io_used[static_cast<std::size_t>(c.b)];
+        const int colour = std::min(std::countr_one(a | b), kColours - 1);
+        a |= std::uint64_t{1} << colour, b |= std::uint64_t{1} << colour;
+        colours_.push_back(static_cast<std::uint8_t>(colour)), ++begin[static_cast<std::size_t>(colour) + 1];
     }
-    solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
-    std::vector<char> pushed(bodies_.size(), 0);
-    for (const Contact& c : contacts) {
-        if (c.push == 0) continue;
-        pushed[at(c.a)] = 1;
-        if (c.b != kStatic) pushed[at(c.b)] = 1;
+    for (const std::uint32_t number : numbers)
+        for (const int i : {contacts[number].a, contacts[number].b})
+            if (i != kStatic) io_used[static_cast<std::size_t>(i)] = 0;
+    // Where each colour's batches begin, and how many lanes of its last are taken.
+    std::array<std::uint32_t, kColours> lane{};
+    std::uint32_t batches = 0;
+    for (std::size_t k = 0; k < kColours; ++k) {
+        const std::uint32_t count = begin[k + 1], each = k + 1 < kColours ? kLanes : 1;
+        lane[k] = kLanes * batches;
+        batches += (count + each - 1) / each;
     }
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (!pushed[i]) continue;
-        bodies_[i].velocity = motion[i].velocity, bodies_[i].spin = motion[i].spin;
-        io_accelerations[i] = {};
+    batches_.assign(batches, {});
+    const int still = static_cast<int>(bodies.size());
+    for (Batch& batch : batches_) {
+        batch.a.fill(still), batch.b.fill(still), batch.contact.fill(kNone);
+        batch.row.normal_mass = all<Lanes>(1);
     }
+    const bool spins = stages.has(Stage::spin);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t colour = colours_[i];
+        const std::uint32_t place = lane[colour];
+        lane[colour] += colour + 1 < kColours ? 1 : kLanes;
+        Batch& batch = batches_[place / kLanes];
+        const int l = static_cast<int>(place % kLanes);
+        const auto k = static_cast<std::size_t>(l);
+        const Contact& c = contacts[numbers[i]];
+        const BallNumbers of(bodies, c);
+        batch.a[k] = c.a, batch.b[k] = c.b == kStatic ? still : c.b, batch.contact[k] = numbers[i];
+        auto& row = batch.row;
+        setLane(row.normal, l, c.normal);
+        row.inverse_a[l] = of.inverse_a, row.inverse_b[l] = of.inverse_b, row.normal_mass[l] = of.normalMass();
+        if (spins) row.radius_a[l] = of.radius_a, row.radius_b[l] = of.radius_b, row.turn_a[l] = of.turn_a, row.turn_b[l] = of.turn_b;
+        row.tangent_mass[l] = of.tangentMass(spins), row.friction[l] = c.pairing.friction;
+    }
+}
+
+void Crowd::aim(std::span<const Contact> contacts) {
+    for (Batch& batch : batches_) {
+        auto& row = batch.row;
+        row.step = row.way = Lanes{}, row.drag_step = row.drag_way = LaneVec{};
+        for (int l = 0; l < kLanes; ++l) {
+            const std::uint32_t number = batch.contact[static_cast<std::size_t>(l)];
+            if (number == kNone) continue;
+            const Contact& c = contacts[number];
+            row.target[l] = c.target, row.push[l] = c.push;
+            setLane(row.drag, l, c.drag);
+        }
+    }
+}
+
+int Crowd::solve(std::span<LaneMotion> motion, int rounds, bool drags) {
+    static const Rounds kSmooth = fastestRounds<false>(), kRough = fastestRounds<true>();
+    return (drags ? kRough : kSmooth)(batches_, motion.data(), rounds);
+}
+
+void Crowd::finish(std::span<Contact> contacts) const {
+    for (const Batch& batch : batches_)
+        for (int l = 0; l < kLanes; ++l) {
+            const std::uint32_t number = batch.contact[static_cast<std::size_t>(l)];
+            if (number == kNone) continue;
+            contacts[number].push = batch.row.push[l] + 0.0, contacts[number].drag = laneOf(batch.row.drag, l) + 0.0;  // of −0: 0
+        }
 }
 
 }  // namespace mb

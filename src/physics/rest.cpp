@@ -40,28 +40,32 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     }
 }
 
+/// Sets a contact's target, in metres in place of metres a second; says whether it overlaps.
+bool PhysicsWorld::aimApart(Contact& io_c) const {
+    const double deep = -io_c.gap - 0.5 * depthOf(io_c);
+    io_c.target = deep > 0 ? knobs_.push_out * deep : deep;
+    return deep > 0;
+}
+
+void PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
+    const double length = glm::length(by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(by.spin));
+    if (!io_body.awake || !(length > 0)) return;
+    const double most = std::min(kPushOutSpeed * h, 0.25 * io_body.inner), share = length > most ? most / length : 1.0;
+    io_body.position += share * by.velocity;
+    if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, by.spin, share);
+}
+
 /// Moves overlapping bodies apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
 /// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
 void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
-    // The displacements are solved for as velocities are: metres in place of metres a second, and no friction.
+    // The displacements are solved for as velocities are, without friction.
     bool any = false;
-    for (Contact& c : io_contacts) {
-        const double deep = -c.gap - 0.5 * depthOf(c);
-        any = any || deep > 0;
-        c.target = deep > 0 ? knobs_.push_out * deep : deep;
-    }
+    for (Contact& c : io_contacts) any = aimApart(c) || any;
     if (!any) return;
     std::vector<Motion> moved(bodies_.size());
     solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
     for (Contact& c : io_contacts) c.push = 0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        Body& b = bodies_[i];
-        const double length = glm::length(moved[i].velocity) + (b.isBall() ? 0 : b.radius * glm::length(moved[i].spin));
-        if (!b.awake || !(length > 0)) continue;
-        const double most = std::min(kPushOutSpeed * h, 0.25 * b.inner), share = length > most ? most / length : 1.0;
-        b.position += share * moved[i].velocity;
-        if (!b.isBall()) b.orientation = turned(b.orientation, moved[i].spin, share);
-    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) move(bodies_[i], moved[i], h);
 }
 
 /// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
@@ -151,34 +155,35 @@ bool PhysicsWorld::isOf(const Kept& kept, const Contact& c) const {
     return (kept.feature == c.feature || same_place) && glm::dot(kept.normal, c.normal) >= 0.9;
 }
 
-void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
-    std::vector<char> taken(kept_.size(), 0);
-    struct Range {
-        std::size_t begin = 0, end = 0;
-    };
-    const auto keptOf = [&](const Contact& c) {
-        const std::uint32_t b = c.b == kStatic ? 0 : bodies_[at(c.b)].object.value;
-        Range range{kept_begin_[at(c.a)], kept_begin_[at(c.a) + 1]};
-        while (range.begin < range.end && kept_[range.begin].b != b) ++range.begin;
-        std::size_t end = range.begin;
-        while (end < range.end && kept_[end].b == b) ++end;
-        return range.end = end, range;
-    };
-    const auto take = [&](Contact& io_c, std::size_t k) {
-        taken[k] = 1, io_c.push += kept_[k].push;
-        if (io_c.pairing.friction != 0) io_c.drag += kept_[k].drag - glm::dot(kept_[k].drag, io_c.normal) * io_c.normal;
-    };
-    for (const bool same_feature : {true, false}) {
-        for (Contact& c : contacts) {
-            if (c.push > 0) continue;
-            const Range range = keptOf(c);
-            for (std::size_t k = range.begin; k < range.end; ++k) {
-                if (taken[k] || (same_feature && kept_[k].feature != c.feature) || !isOf(kept_[k], c)) continue;
-                take(c, k);
-                break;
-            }
-        }
+/// The impulses kept of the contact's pair.
+PhysicsWorld::Range PhysicsWorld::keptOf(const Contact& c) const {
+    const std::uint32_t b = c.b == kStatic ? 0 : bodies_[at(c.b)].object.value;
+    Range range{kept_begin_[at(c.a)], kept_begin_[at(c.a) + 1]};
+    while (range.begin < range.end && kept_[range.begin].b != b) ++range.begin;
+    std::size_t end = range.begin;
+    while (end < range.end && kept_[end].b == b) ++end;
+    return range.end = end, range;
+}
+
+void PhysicsWorld::take(Contact& io_c, std::size_t kept, std::vector<char>& io_taken) const {
+    io_taken[kept] = 1, io_c.push += kept_[kept].push;
+    if (io_c.pairing.friction != 0) io_c.drag += kept_[kept].drag - glm::dot(kept_[kept].drag, io_c.normal) * io_c.normal;
+}
+
+void PhysicsWorld::takeKept(Contact& io_c, bool same_feature, std::vector<char>& io_taken) const {
+    if (io_c.push > 0) return;
+    const Range range = keptOf(io_c);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+        if (io_taken[k] || (same_feature && kept_[k].feature != io_c.feature) || !isOf(kept_[k], io_c)) continue;
+        return take(io_c, k, io_taken);
     }
+}
+
+void PhysicsWorld::takeKept(std::span<Contact> contacts) {
+    std::vector<char>& taken = scratch_.taken;
+    taken.assign(kept_.size(), 0);
+    for (const bool same_feature : {true, false})
+        for (Contact& c : contacts) takeKept(c, same_feature, taken);
     // What two shapes' lost points carried, the nearest of those they have now carry.
     for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
         for (end = i + 1; end < contacts.size() && contacts[end].a == contacts[i].a && contacts[end].b == contacts[i].b;) ++end;
@@ -190,24 +195,28 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
                 return glm::dot(kept_[k].normal, c.normal) < 0.9 ? INFINITY : glm::length(c.arm_a - kept_[k].arm);
             };
             Contact& nearest = *std::ranges::min_element(contacts.subspan(i, end - i), {}, apart);
-            if (apart(nearest) < INFINITY) take(nearest, k);
+            if (apart(nearest) < INFINITY) take(nearest, k, taken);
         }
     }
 }
 
-/// Keeps the impulses of contacts, those with one a together; of one pair in their order.
-void PhysicsWorld::keep(std::span<const Contact> contacts) {
-    std::vector<std::uint32_t> begin(bodies_.size() + 1, 0);
-    for (const Contact& c : contacts)
-        if (c.push > 0) ++begin[at(c.a) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    kept_begin_ = begin;
-    kept_.resize(begin.back());
-    for (const Contact& c : contacts) {
-        if (!(c.push > 0)) continue;
-        kept_[begin[at(c.a)]++] = {bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
-                                   c.arm_a, c.push, c.drag};
-    }
+/// Keeps the impulses of contacts, those with one a together; of one pair in their order. `settled`: numbers among `contacts`.
+void PhysicsWorld::keep(std::span<const Contact> carried, std::span<const Contact> contacts, std::span<const std::uint32_t> settled) {
+    const auto each = [&](const auto& visit) {
+        for (const Contact& c : carried)
+            if (c.push > 0) visit(c);
+        for (const std::uint32_t k : settled)
+            if (contacts[k].push > 0) visit(contacts[k]);
+    };
+    kept_begin_.assign(bodies_.size() + 1, 0);
+    each([&](const Contact& c) { ++kept_begin_[at(c.a) + 1]; });
+    std::partial_sum(kept_begin_.begin(), kept_begin_.end(), kept_begin_.begin());
+    kept_.resize(kept_begin_.back());
+    std::vector<std::uint32_t> next = kept_begin_;
+    each([&](const Contact& c) {
+        kept_[next[at(c.a)]++] = {bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
+                                  c.arm_a, c.push, c.drag};
+    });
 }
 
 /// Finds again where each body's begin, after some were taken out.

@@ -1,6 +1,7 @@
 #pragma once
 // A contact as the rounds of the solver see it: what they need again and again, worked out once.
 #include "physics/contact.h"
+#include "physics/lanes.h"
 
 #include <glm/geometric.hpp>
 
@@ -8,73 +9,98 @@
 
 namespace mb {
 
-/// What every row has. The impulses are the row's until finish() gives them back to the contact.
-struct Row {
-    Contact* contact;
-    Motion *a, *b;                         // b of a static one: a motion that nothing changes
-    glm::dvec3 normal, slip, drag;
-    double target, push, friction;
-    double inverse_a = 0, inverse_b = 0;   // masses; 0: static
-    double normal_mass = 0;
-    double step = 0, way = 0;              // of the push: what the last turn added, and the way the rounds go (goOn)
-    glm::dvec3 drag_step{0}, drag_way{0};
+using glm::cross, glm::dot;
 
-    Row(Contact& c, Motion& of_a, Motion& of_b)
-        : contact(&c), a(&of_a), b(&of_b), normal(c.normal), slip(c.slip), drag(c.drag), target(c.target), push(c.push), friction(c.pairing.friction) {}
-    void finish() const { contact->push = push, contact->drag = drag; }
+/// What every row has, in doubles, or in lanes of as many contacts at once (lanes.h).
+template <class S, class V> struct RowOf {
+    V normal{};
+    S normal_mass{}, inverse_a{}, inverse_b{};  // inverse masses; 0: static
+    S target{}, push{};
+    S step{}, way{};                            // of the push: what the last turn added, and the way the rounds go (goOn)
+    S friction{};
+    V drag{}, drag_step{}, drag_way{};
+
+    template <class M> MB_INLINE void pushBy(const S& impulse, M& io_a, M& io_b) const {
+        io_a.velocity = io_a.velocity + (impulse * inverse_a) * normal;
+        io_b.velocity = io_b.velocity - (impulse * inverse_b) * normal;
+    }
 };
+
+/// The vector, or where it is longer, the one of that length in its direction.
+template <class S, class V> MB_INLINE V shortened(const V& v, const S& most) {
+    const S square = dot(v, v), share = most / rootOf(square);
+    return (square > most * most ? share : all<S>(1)) * v;
+}
 
 /// A contact of balls. A ball's normal impulse passes through its centre and turns nothing; the tangential one acts at the
 /// lever r and meets the mass 1/(1/m + r²/I), which is 2/7·m for a solid ball.
-template <bool spins> struct BallRow : Row {
-    double radius_a = 0, radius_b = 0;
-    double turn_a = 0, turn_b = 0;         // radius / moment of inertia
-    double tangent_mass = 0;
+template <bool spins, class S, class V> struct BallRowOf : RowOf<S, V> {
+    using Row = RowOf<S, V>;
+    using Row::inverse_a, Row::inverse_b, Row::normal;
+    S radius_a{}, radius_b{};
+    S turn_a{}, turn_b{};                       // radius / moment of inertia
+    S tangent_mass{};
 
-    BallRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Row(c, of_a, of_b) {
-        const Body& ball_a = bodies[static_cast<std::size_t>(c.a)];
-        inverse_a = ball_a.inverse_mass, radius_a = ball_a.radius, turn_a = ball_a.radius * ball_a.inverse_inertia[0][0];
-        if (c.b != kStatic) {
-            const Body& ball_b = bodies[static_cast<std::size_t>(c.b)];
-            inverse_b = ball_b.inverse_mass, radius_b = ball_b.radius, turn_b = ball_b.radius * ball_b.inverse_inertia[0][0];
-        }
-        const double inverse = inverse_a + inverse_b, turning = spins ? radius_a * turn_a + radius_b * turn_b : 0;
-        normal_mass = 1 / inverse, tangent_mass = 1 / (inverse + turning);
-    }
-    double approach() const { return glm::dot(a->velocity - b->velocity, normal); }
-    glm::dvec3 slipping() const {
-        const glm::dvec3 v = a->velocity - b->velocity, along = v - glm::dot(v, normal) * normal;
+    template <class M> MB_INLINE S approach(const M& a, const M& b) const { return dot(a.velocity - b.velocity, normal); }
+    template <class M> MB_INLINE V slipping(const M& a, const M& b) const {
+        const V v = a.velocity - b.velocity, along = v - dot(v, normal) * normal;
         if constexpr (!spins) return along;
-        return along - glm::cross(radius_a * a->spin + radius_b * b->spin, normal);
+        else return along - cross(radius_a * a.spin + radius_b * b.spin, normal);
     }
-    void pushBy(double impulse) const {
-        a->velocity += (impulse * inverse_a) * normal;
-        b->velocity -= (impulse * inverse_b) * normal;
+    template <class M> MB_INLINE void dragBy(const V& impulse, M& io_a, M& io_b) const {
+        io_a.velocity = io_a.velocity + inverse_a * impulse;
+        io_b.velocity = io_b.velocity - inverse_b * impulse;
+        if constexpr (spins) {
+            const V turn = cross(normal, impulse);
+            io_a.spin = io_a.spin - turn_a * turn;
+            io_b.spin = io_b.spin - turn_b * turn;
+        }
     }
-    void dragBy(const glm::dvec3& impulse) const {
-        a->velocity += inverse_a * impulse;
-        b->velocity -= inverse_b * impulse;
-        if constexpr (!spins) return;
-        const glm::dvec3 turn = glm::cross(normal, impulse);
-        a->spin -= turn_a * turn;
-        b->spin -= turn_b * turn;
+    /// The drag that changes the slip by that much, within Coulomb's cone.
+    MB_INLINE V dragWithin(const V& change, const S& most) const { return shortened(Row::drag + tangent_mass * change, most); }
+};
+
+/// What the row needs of a contact of balls: its bodies' masses and radii.
+struct BallNumbers {
+    double inverse_a, inverse_b = 0, radius_a, radius_b = 0, turn_a, turn_b = 0;
+    BallNumbers(std::span<const Body> bodies, const Contact& c) {
+        const Body& a = bodies[static_cast<std::size_t>(c.a)];
+        inverse_a = a.inverse_mass, radius_a = a.radius, turn_a = a.radius * a.inverse_inertia[0][0];
+        if (c.b == kStatic) return;
+        const Body& b = bodies[static_cast<std::size_t>(c.b)];
+        inverse_b = b.inverse_mass, radius_b = b.radius, turn_b = b.radius * b.inverse_inertia[0][0];
     }
-    /// The tangential impulse that changes the slip by that much; and the mass it meets, along the lightest direction.
-    glm::dvec3 dragFor(const glm::dvec3& change) const { return tangent_mass * change; }
-    double lightest() const { return tangent_mass; }
+    double normalMass() const { return 1 / (inverse_a + inverse_b); }
+    double tangentMass(bool spins) const { return 1 / (inverse_a + inverse_b + (spins ? radius_a * turn_a + radius_b * turn_b : 0)); }
+};
+
+/// A contact and the two it moves. The impulses are the row's until finish() gives them back to the contact.
+struct Ends {
+    Contact* contact;
+    Motion *a, *b;                              // b of a static one: a motion that nothing changes
+};
+
+template <bool spins> struct BallRow : BallRowOf<spins, double, glm::dvec3>, Ends {
+    BallRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Ends{&c, &of_a, &of_b} {
+        const BallNumbers numbers(bodies, c);
+        this->inverse_a = numbers.inverse_a, this->inverse_b = numbers.inverse_b;
+        this->radius_a = numbers.radius_a, this->radius_b = numbers.radius_b;
+        this->turn_a = numbers.turn_a, this->turn_b = numbers.turn_b;
+        this->normal_mass = numbers.normalMass(), this->tangent_mass = numbers.tangentMass(spins);
+    }
 };
 
 /// The same of any bodies: the levers are the contact's arms, and how hard a body is to turn depends on the axis.
-template <bool spins> struct LeverRow : Row {
+template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
     glm::dvec3 arm_a, arm_b;
-    glm::dmat3 turning_a{0}, turning_b{0};  // inverse inertia, in the world's frame
-    glm::dvec3 turn_a{0}, turn_b{0};        // by a normal impulse of 1
-    glm::dvec3 t{0}, u{0};                  // unit tangents
-    double tt = 0, tu = 0, uu = 0;          // of the inverse of the matrix from tangential impulses to slips
+    glm::dmat3 turning_a{0}, turning_b{0};      // inverse inertia, in the world's frame
+    glm::dvec3 turn_a{0}, turn_b{0};            // by a normal impulse of 1
+    glm::dvec3 t{0}, u{0};                      // unit tangents
+    double tt = 0, tu = 0, uu = 0;              // of the inverse of the matrix from tangential impulses to slips
 
-    LeverRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Row(c, of_a, of_b), arm_a(c.arm_a), arm_b(c.arm_b) {
+    LeverRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Ends{&c, &of_a, &of_b}, arm_a(c.arm_a), arm_b(c.arm_b) {
         const Body& body_a = bodies[static_cast<std::size_t>(c.a)];
-        inverse_a = body_a.inverse_mass;
+        normal = c.normal, inverse_a = body_a.inverse_mass;
         if (spins) turning_a = body_a.worldInverseInertia(), turn_a = turning_a * glm::cross(arm_a, normal);
         if (c.b != kStatic) {
             const Body& body_b = bodies[static_cast<std::size_t>(c.b)];
@@ -97,100 +123,109 @@ template <bool spins> struct LeverRow : Row {
         }
         return v;
     }
-    glm::dvec3 velocity() const {
-        if constexpr (!spins) return a->velocity - b->velocity;
-        return (a->velocity + glm::cross(a->spin, arm_a)) - (b->velocity + glm::cross(b->spin, arm_b));
+    glm::dvec3 velocity(const Motion& of_a, const Motion& of_b) const {
+        if constexpr (!spins) return of_a.velocity - of_b.velocity;
+        return (of_a.velocity + glm::cross(of_a.spin, arm_a)) - (of_b.velocity + glm::cross(of_b.spin, arm_b));
     }
-    double approach() const { return glm::dot(velocity(), normal); }
-    glm::dvec3 slipping() const {
-        const glm::dvec3 v = velocity();
+    double approach(const Motion& of_a, const Motion& of_b) const { return glm::dot(velocity(of_a, of_b), normal); }
+    glm::dvec3 slipping(const Motion& of_a, const Motion& of_b) const {
+        const glm::dvec3 v = velocity(of_a, of_b);
         return v - glm::dot(v, normal) * normal;
     }
-    void pushBy(double impulse) const {
-        a->velocity += (impulse * inverse_a) * normal;
-        b->velocity -= (impulse * inverse_b) * normal;
+    void pushBy(double impulse, Motion& io_a, Motion& io_b) const {
+        RowOf::pushBy(impulse, io_a, io_b);
         if constexpr (!spins) return;
-        a->spin += impulse * turn_a;
-        b->spin -= impulse * turn_b;
+        io_a.spin += impulse * turn_a;
+        io_b.spin -= impulse * turn_b;
     }
-    void dragBy(const glm::dvec3& impulse) const {
-        a->velocity += inverse_a * impulse;
-        b->velocity -= inverse_b * impulse;
+    void dragBy(const glm::dvec3& impulse, Motion& io_a, Motion& io_b) const {
+        io_a.velocity += inverse_a * impulse;
+        io_b.velocity -= inverse_b * impulse;
         if constexpr (!spins) return;
-        a->spin += turning_a * glm::cross(arm_a, impulse);
-        b->spin -= turning_b * glm::cross(arm_b, impulse);
+        io_a.spin += turning_a * glm::cross(arm_a, impulse);
+        io_b.spin -= turning_b * glm::cross(arm_b, impulse);
     }
-    glm::dvec3 dragFor(const glm::dvec3& change) const {
+    /// What slides is dragged against its slip, however hard it is to turn: a step down the slip, then onto the cone.
+    glm::dvec3 dragWithin(const glm::dvec3& change, double most) const {
         const double s = glm::dot(t, change), r = glm::dot(u, change);
-        return (tt * s + tu * r) * t + (tu * s + uu * r) * u;
+        const glm::dvec3 wanted = drag + (tt * s + tu * r) * t + (tu * s + uu * r) * u;
+        return glm::dot(wanted, wanted) <= most * most ? wanted : shortened(drag + lightest() * change, most);
     }
+    /// The mass that a drag meets in the lightest direction.
     double lightest() const {
         const double mean = 0.5 * (tt + uu), apart = 0.5 * (tt - uu);
         return mean - std::sqrt(apart * apart + tu * tu);
     }
 };
 
-/// Applies the impulses a row begins with.
-template <bool drags, class Row> void applyFirst(const Row& row) {
-    if (row.push != 0) row.pushBy(row.push);
-    if constexpr (drags)
-        if (row.drag != glm::dvec3{0}) row.dragBy(row.drag);
-}
+/// Of a double: nothing drags without friction, and −0 stays what it is. (Of lanes some may.)
+MB_INLINE bool isSmooth(double friction) { return friction == 0; }
+MB_INLINE bool isSmooth(const Lanes&) { return false; }
 
+/// Applies the impulses a row begins with.
+template <bool drags, class Row, class M> MB_INLINE void applyFirst(const Row& row, M& io_a, M& io_b) {
+    row.pushBy(row.push, io_a, io_b);
+    if constexpr (drags)
+        if (!isSmooth(row.friction)) row.dragBy(row.drag, io_a, io_b);
+}
 /// What turns did.
-struct Change {
-    double fastest = 0;  // m²/s²: the square of the most that a velocity was changed by
-    double energy = 0;   // the sum of the impulses' squares, each over the mass it meets, J
-    void add(const Change& c) { fastest = std::max(fastest, c.fastest), energy += c.energy; }
+template <class S> struct Change {
+    S fastest{}, energy{};  // m²/s²: the square of the most that a velocity was changed by; J: of the impulses, by the mass they meet
+    MB_INLINE void add(const S& by_fastest, const S& by_energy) { fastest = larger(fastest, by_fastest), energy = energy + by_energy; }
 };
 
-/// Turns the drag towards the slip that is wanted, within Coulomb's cone.
-template <class Row> void turnDrag(Row& io_row) {
-    const double limit = io_row.friction * io_row.push;
-    const glm::dvec3 wanted = io_row.slip - io_row.slipping();
-    glm::dvec3 drag = io_row.drag + io_row.dragFor(wanted);
-    if (glm::dot(drag, drag) > limit * limit) {
-        // What slides is dragged against its slip, however hard it is to turn: a step down the slip, then onto the cone.
-        drag = io_row.drag + io_row.lightest() * wanted;
-        if (const double square = glm::dot(drag, drag); square > limit * limit) drag *= limit / std::sqrt(square);
-    }
-    io_row.drag_step = drag - io_row.drag;
-    io_row.drag = drag;
-    io_row.dragBy(io_row.drag_step);
-}
-
-/// One turn towards the row's target.
-template <bool drags, class Row> Change turn(Row& io_row, std::uint64_t& io_drags) {
-    const double pushed = std::max(io_row.push + io_row.normal_mass * (io_row.target - io_row.approach()), 0.0);
+/// One turn towards the row's target, and no slip but `slip`.
+template <bool drags, class Row, class M, class S, class V>
+MB_INLINE void turn(Row& io_row, M& io_a, M& io_b, const V& slip, Change<S>& io_change) {
+    const S pushed = larger(io_row.push + io_row.normal_mass * (io_row.target - io_row.approach(io_a, io_b)), all<S>(0));
     io_row.step = pushed - io_row.push, io_row.push = pushed;
-    io_row.pushBy(io_row.step);
-    const double by = io_row.step / io_row.normal_mass;
-    Change change{by * by, io_row.step * by};
+    io_row.pushBy(io_row.step, io_a, io_b);
+    const S by = io_row.step / io_row.normal_mass;
+    io_change.add(by * by, io_row.step * by);
     if constexpr (drags) {
-        io_row.drag_step = {};
-        if (io_row.friction == 0 || (io_row.push == 0 && io_row.drag == glm::dvec3{0})) return change;
-        ++io_drags;
-        turnDrag(io_row);
-        const double square = glm::dot(io_row.drag_step, io_row.drag_step), inverse = io_row.inverse_a + io_row.inverse_b;
-        change.fastest = std::max(change.fastest, inverse * inverse * square), change.energy += square / io_row.normal_mass;
+        if (isSmooth(io_row.friction)) return;
+        const V drag = io_row.dragWithin(slip - io_row.slipping(io_a, io_b), io_row.friction * io_row.push);
+        io_row.drag_step = drag - io_row.drag, io_row.drag = drag;
+        io_row.dragBy(io_row.drag_step, io_a, io_b);
+        const S square = dot(io_row.drag_step, io_row.drag_step), inverse = io_row.inverse_a + io_row.inverse_b;
+        io_change.add(inverse * inverse * square, square / io_row.normal_mass);
     }
-    return change;
 }
 
 /// Goes on in the way the rounds have gone: a share of the last way, and to it the last turn's step is added. The next turn brings
 /// back what goes too far. With Fletcher's and Reeves' share, what the last round changed over what the one before did, these are
 /// the nonsmooth nonlinear conjugate gradients of Silcowitz, Niebe, Erleben, "A Nonsmooth Nonlinear Conjugate Gradient Method for
 /// Interactive Contact Force Problems" (2010). A share of 0 begins anew.
-template <bool drags, class Row> void goOn(Row& io_row, double share) {
-    io_row.way *= share;
-    if (io_row.way != 0) io_row.push += io_row.way, io_row.pushBy(io_row.way);
-    io_row.way += io_row.step;
-    if constexpr (!drags) return;
-    io_row.drag_way *= share;
-    if (io_row.drag_way != glm::dvec3{0}) io_row.drag += io_row.drag_way, io_row.dragBy(io_row.drag_way);
-    io_row.drag_way += io_row.drag_step;
+template <bool drags, class Row, class M> MB_INLINE void goOn(Row& io_row, M& io_a, M& io_b, double share) {
+    io_row.way = io_row.way * share;
+    io_row.push = io_row.push + io_row.way, io_row.pushBy(io_row.way, io_a, io_b);
+    io_row.way = io_row.way + io_row.step;
+    if constexpr (drags) {
+        if (isSmooth(io_row.friction)) return;
+        io_row.drag_way = share * io_row.drag_way;
+        io_row.drag = io_row.drag + io_row.drag_way, io_row.dragBy(io_row.drag_way, io_a, io_b);
+        io_row.drag_way = io_row.drag_way + io_row.drag_step;
+    }
 }
 
 inline constexpr double kSettled = 1e-24;  // m²/s²: rounds end that change no velocity by more than the root
+
+/// How long rounds go on, and how far each goes on in the way of those before. Where much lies on little, rounds alone creep.
+class Pace {
+public:
+    explicit Pace(int rounds) : rounds_(rounds) {}
+    /// After a round that changed so much: whether another is to follow.
+    template <class S> MB_INLINE bool more(const Change<S>& changed) {
+        const double energy = sum(changed.energy);
+        share_ = before_ > 0 && energy <= before_ ? energy / before_ : 0, before_ = energy;
+        return ++made_ < rounds_ && largest(changed.fastest) > kSettled;
+    }
+    double share() const { return share_; }
+    int made() const { return made_; }
+
+private:
+    int rounds_, made_ = 0;
+    double before_ = 0, share_ = 0;
+};
 
 }  // namespace mb

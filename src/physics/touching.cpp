@@ -8,7 +8,7 @@ namespace mb {
 
 /// Contacts at the start of a part of length h; the pairs behind the static ones. Of those that are met in flight, only what touches
 /// now; of the others also what lies ahead.
-std::span<const Contact> PhysicsWorld::touching(double h) {
+std::span<Contact> PhysicsWorld::touching(double h) {
     std::vector<Contact>& contacts = scratch_.found;
     contacts.clear();
     memory_.begin();

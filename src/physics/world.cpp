@@ -54,7 +54,7 @@ void PhysicsWorld::part(double h) {
         return;
     }
     tame();
-    const std::span<const Contact> contacts = touching(h);
+    const std::span<Contact> contacts = touching(h);
     const Islands islands(bodies_.size(), contacts);
     if (has(Stage::sleeping)) wakeAndSleep(islands);
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
@@ -65,31 +65,34 @@ void PhysicsWorld::part(double h) {
 }
 
 /// What lasts of the contacts keeps the bodies up: their accelerations through the part. Crowds are settled, the others carried.
-std::vector<Motion> PhysicsWorld::rest(std::span<const Contact> contacts, const Islands& islands, double h) {
+std::vector<Motion> PhysicsWorld::rest(std::span<Contact> contacts, const Islands& islands, double h) {
     std::vector<Motion> accelerations = falling();
-    std::vector<Contact>&crowds = scratch_.crowds, &others = scratch_.others;
-    crowds.clear(), others.clear();
+    std::vector<Contact>& others = scratch_.others;
+    std::vector<std::uint32_t>& crowds = scratch_.crowds;
+    others.clear(), crowds.clear();
     const std::vector<std::uint32_t> order = islands.sorted(contacts);
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         const int island = islands.of(contacts[order[begin]]);
         bool balls = true, pairs = false;
         for (; end < order.size() && islands.of(contacts[order[end]]) == island; ++end) {
-            const Contact& c = contacts[order[end]];
+            Contact& c = contacts[order[end]];
             balls = balls && betweenBalls(bodies_, c), pairs = pairs || c.b != kStatic;
+            c.island = island;
         }
         if (!bodies_[static_cast<std::size_t>(island)].awake) continue;
-        std::vector<Contact>& to = balls && pairs ? crowds : others;
-        for (std::size_t k = begin; k < end; ++k) to.push_back(contacts[order[k]]), to.back().island = island;
+        for (std::size_t k = begin; k < end; ++k) {
+            if (balls && pairs) crowds.push_back(order[k]);
+            else others.push_back(contacts[order[k]]);
+        }
     }
-    for (std::vector<Contact>* some : {&others, &crowds})
-        if (!some->empty()) pushApart(*some, h), dropImpacts(*some, h);
     if (!others.empty()) {
+        pushApart(others, h);
+        dropImpacts(others, h);
         stopApproaches(others, h);
         others = carry(others, h, accelerations);
     }
-    settleCrowds(crowds, h, accelerations);
-    others.insert(others.end(), crowds.begin(), crowds.end());
-    keep(others);
+    settleCrowds(contacts, crowds, h, accelerations);
+    keep(others, contacts, crowds);
     contacts_ = static_cast<int>(kept_.size());
     return accelerations;
 }
@@ -100,11 +103,13 @@ bool PhysicsWorld::flown(const Contact& c, const FlightRules& rules) const {
 }
 
 /// Fast approaches that are met in flight are the flight's business.
+bool PhysicsWorld::isImpact(const Contact& c, const FlightRules& rules) const {
+    return flown(c, rules) && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
+}
+
 void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) const {
     const FlightRules rules = rulesFor(h);
-    std::erase_if(io_contacts, [&](const Contact& c) {
-        return flown(c, rules) && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
-    });
+    std::erase_if(io_contacts, [&](const Contact& c) { return isImpact(c, rules); });
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {

@@ -9,6 +9,7 @@
 // Each of these is there if a row of the table of effects calls for it (stages.h): a part is composed of the stages that the
 // bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no ball is awake a
 // step only counts the time.
+#include "physics/crowd.h"
 #include "physics/flight.h"
 #include "physics/islands.h"
 
@@ -82,7 +83,13 @@ private:
 
     /// Memory of a part that the next uses again. A copy of a world has its own.
     struct Scratch {
-        std::vector<Contact> found, crowds, others;
+        std::vector<Contact> found, others;
+        std::vector<std::uint32_t> crowds;
+        Crowd crowd;
+        std::vector<LaneMotion> motion;                        // of every body, and of what never moves
+        std::vector<std::uint64_t> used;                       // of every body; 0 between uses
+        std::vector<int> balls;                                // of an island
+        std::vector<char> taken;                               // of every impulse kept
         Scratch() = default;
         Scratch(const Scratch&) {}
         Scratch& operator=(const Scratch&) { return *this; }
@@ -101,12 +108,13 @@ private:
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
     bool flown(const Contact& c, const FlightRules& rules) const;
     bool allBalls() const { return shapes_ == 0; }
-    std::span<const Contact> touching(double h);
+    std::span<Contact> touching(double h);
     void touchStatics(std::vector<Contact>& io_contacts, double h);
     void touchBodies(std::vector<Contact>& io_contacts, double h);
     Reach reachOf(std::size_t i, glm::dvec3 drift, double pull, double time) const;
     void coverPairs(double h, std::span<const Motion> accelerations = {});
-    std::vector<Motion> rest(std::span<const Contact> contacts, const Islands& islands, double h);
+    std::vector<Motion> rest(std::span<Contact> contacts, const Islands& islands, double h);
+    bool isImpact(const Contact& c, const FlightRules& rules) const;
     void dropImpacts(std::vector<Contact>& io_contacts, double h) const;
     std::vector<Motion> falling() const;
     void fly(std::span<const Motion> accelerations, double h);
@@ -115,12 +123,22 @@ private:
     void pushApart(std::span<Contact> io_contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
     std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
-    void settleCrowds(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
+    void settleCrowds(std::span<Contact> contacts, std::span<const std::uint32_t> numbers, double h, std::span<Motion> io_accelerations);
+    void pushCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, double h);
+    void settleCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, const FlightRules& rules, std::span<Motion> io_accelerations);
+    bool aimApart(Contact& io_c) const;
+    static void move(Body& io_body, const Motion& by, double h);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
     bool isOf(const Kept& kept, const Contact& c) const;
-    void takeKept(std::span<Contact> contacts) const;
-    void keep(std::span<const Contact> contacts);
+    struct Range {
+        std::size_t begin = 0, end = 0;
+    };
+    Range keptOf(const Contact& c) const;
+    void take(Contact& io_c, std::size_t kept, std::vector<char>& io_taken) const;
+    void takeKept(Contact& io_c, bool same_feature, std::vector<char>& io_taken) const;
+    void takeKept(std::span<Contact> contacts);
+    void keep(std::span<const Contact> carried, std::span<const Contact> contacts, std::span<const std::uint32_t> settled);
     void findKept();
     void countStill(std::span<const Contact> contacts, double h);
     void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
