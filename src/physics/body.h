@@ -28,7 +28,8 @@ struct Body {
 
     bool isBall() const { return !solid; }
     double mass() const { return 1 / inverse_mass; }
-    Pose pose() const { return {position, glm::mat3_cast(orientation)}; }
+    /// Of its shape; a ball's is the same however it is turned.
+    Pose pose() const { return {position, isBall() ? glm::dmat3{1} : glm::mat3_cast(orientation)}; }
     /// In the world's frame; every direction of a ball is alike.
     glm::dmat3 worldInverseInertia() const;
 };

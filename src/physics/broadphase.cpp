@@ -11,7 +11,26 @@
 namespace mb {
 namespace {
 
-using Pairs = std::vector<std::pair<int, int>>;
+/// Pairs that grow by those that overlap; whether one does is no branch, which the processor would guess wrong.
+class Pairs {
+public:
+    /// Makes room for that many more.
+    void expect(std::size_t more) {
+        if (count_ + more > all_.size()) all_.resize(2 * (count_ + more));
+    }
+    void add(int a, int b, bool overlaps) {
+        all_[count_] = std::minmax(a, b);
+        count_ += overlaps;
+    }
+    std::vector<std::pair<int, int>> taken() {
+        all_.resize(count_);
+        return std::move(all_);
+    }
+
+private:
+    std::vector<std::pair<int, int>> all_;
+    std::size_t count_ = 0;
+};
 
 /// The bodies of about one size, in the order of their cells: along x, then y, then z.
 class Level {
@@ -42,12 +61,16 @@ public:
         std::array<std::size_t, kRows.size()> first{};  // where each row's neighbours begin: they come in order, as the cells do
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Entry& e = entries_[i];
-            for (std::size_t k = i + 1; k < entries_.size() && entries_[k].cell <= e.cell + 1; ++k) add(e, entries_[k], io_pairs);
+            std::size_t end = i + 1;
+            while (end < entries_.size() && entries_[end].cell <= e.cell + 1) ++end;
+            add(e, i + 1, end, io_pairs);
             for (std::size_t row = 0; row < kRows.size(); ++row) {
                 const std::uint64_t middle = e.cell + kRows[row];
                 std::size_t& k = first[row];
                 while (k < entries_.size() && entries_[k].cell < middle - 1) ++k;
-                for (std::size_t n = k; n < entries_.size() && entries_[n].cell <= middle + 1; ++n) add(e, entries_[n], io_pairs);
+                end = k;
+                while (end < entries_.size() && entries_[end].cell <= middle + 1) ++end;
+                add(e, k, end, io_pairs);
             }
         }
     }
@@ -57,7 +80,8 @@ public:
         for (const std::uint64_t layer : {cell - kLayer, cell, cell + kLayer})
             for (const std::uint64_t middle : {layer - kRow, layer, layer + kRow}) {
                 const auto begin = std::ranges::lower_bound(entries_, middle - 1, {}, &Entry::cell);
-                for (auto e = begin; e != entries_.end() && e->cell <= middle + 1; ++e) add(finer, *e, io_pairs);
+                const auto end = std::ranges::upper_bound(begin, entries_.end(), middle + 1, {}, &Entry::cell);
+                add(finer, static_cast<std::size_t>(begin - entries_.begin()), static_cast<std::size_t>(end - entries_.begin()), io_pairs);
             }
     }
     std::span<const Entry> entries() const { return entries_; }
@@ -65,8 +89,9 @@ public:
 private:
     static constexpr std::uint64_t kRow = std::uint64_t{1} << 21, kLayer = kRow << 21;
 
-    static void add(const Entry& a, const Entry& b, Pairs& io_pairs) {
-        if (overlap(a.reach, b.reach)) io_pairs.emplace_back(std::min(a.body, b.body), std::max(a.body, b.body));
+    void add(const Entry& e, std::size_t begin, std::size_t end, Pairs& io_pairs) const {
+        io_pairs.expect(end - begin);
+        for (std::size_t k = begin; k < end; ++k) io_pairs.add(e.body, entries_[k].body, overlap(e.reach, entries_[k].reach));
     }
     /// Cells beyond the last are the last: what is near stays near, however far out it is.
     std::uint64_t cellOf(glm::dvec3 centre) const {
@@ -98,9 +123,9 @@ std::vector<Level> levelsOf(std::span<const Reach> bodies) {
 }
 
 /// Sorts pairs of numbers below `bodies`, in linear time: by the second, then, keeping that order, by the first.
-void sortPairs(Pairs& io_pairs, std::size_t bodies) {
-    Pairs sorted(io_pairs.size());
-    const auto pass = [&](const Pairs& from, Pairs& to, auto key) {
+void sortPairs(std::vector<std::pair<int, int>>& io_pairs, std::size_t bodies) {
+    std::vector<std::pair<int, int>> sorted(io_pairs.size());
+    const auto pass = [&](const auto& from, auto& to, auto key) {
         std::vector<std::uint32_t> begin(bodies + 1, 0);
         for (const auto& pair : from) ++begin[static_cast<std::size_t>(key(pair)) + 1];
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -120,8 +145,9 @@ std::vector<std::pair<int, int>> overlappingPairs(std::span<const Reach> bodies)
         for (std::size_t k = i + 1; k < levels.size(); ++k)
             for (const Level::Entry& e : levels[i].entries()) levels[k].addPairsOf(e, pairs);
     }
-    sortPairs(pairs, bodies.size());
-    return pairs;
+    std::vector<std::pair<int, int>> sorted = pairs.taken();
+    sortPairs(sorted, bodies.size());
+    return sorted;
 }
 
 }  // namespace mb

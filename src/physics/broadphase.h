@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,7 +57,7 @@ private:
 inline bool overlap(const Reach& a, const Reach& b) {
     const double r = a.reach + b.reach;
     const glm::dvec3 d = a.centre - b.centre;
-    return d.x <= r && -d.x <= r && d.y <= r && -d.y <= r && d.z <= r && -d.z <= r;
+    return (std::fabs(d.x) <= r) & (std::fabs(d.y) <= r) & (std::fabs(d.z) <= r);
 }
 
 }  // namespace mb

@@ -33,6 +33,9 @@ void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Bo
     const std::size_t before = io_contacts.size();
     ++counts_.body_gaps;
     if (a.isBall() && b.isBall()) {
+        const glm::dvec3 apart = a.position - b.position;
+        const double reach = std::max(a.radius + b.radius + margin, 0.0) * (1 + 1e-12);
+        if (glm::dot(apart, apart) > reach * reach) return;
         const Contact c = ballContact(i, a, j, b, pairing(world_, a, b));
         if (c.gap <= margin) io_contacts.push_back(c);
     } else if (a.isBall()) {

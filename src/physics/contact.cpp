@@ -11,6 +11,8 @@
 namespace mb {
 namespace {
 
+constexpr double kTogether = 1e-12;  // of the sum of radii: centres so near coincide
+
 template <bool drags, class Row> void start(Row& io_row) {
     const Contact& c = *io_row.contact;
     io_row.normal = c.normal, io_row.target = c.target, io_row.push = c.push, io_row.friction = c.pairing.friction, io_row.drag = c.drag;
@@ -79,7 +81,7 @@ bool betweenBalls(std::span<const Body> bodies, const Contact& c) {
 glm::dvec3 directionApart(const Body& a, const Body& b) {
     const glm::dvec3 apart = a.position - b.position;
     const double d = glm::length(apart);
-    if (d > 1e-12 * (a.radius + b.radius)) return apart / d;
+    if (d > kTogether * (a.radius + b.radius)) return apart / d;
     Random random(a.object.value * 0x100000000u + b.object.value);
     glm::dvec3 n{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
     return glm::dot(n, n) > 1e-6 ? glm::normalize(n) : glm::dvec3{0, 1, 0};
@@ -92,8 +94,9 @@ Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pair
 }
 
 Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing) {
-    const double gap = glm::length(body_a.position - body_b.position) - body_a.radius - body_b.radius;
-    Contact c = ballContact(a, body_a, directionApart(body_a, body_b), gap, pairing);
+    const glm::dvec3 apart = body_a.position - body_b.position;
+    const double d = glm::length(apart), sum = body_a.radius + body_b.radius;
+    Contact c = ballContact(a, body_a, d > kTogether * sum ? apart / d : directionApart(body_a, body_b), d - sum, pairing);
     c.b = b, c.arm_b = body_b.radius * c.normal;
     return c;
 }

@@ -17,6 +17,7 @@ struct Contact {
     glm::dvec3 arm_a{0}, arm_b{0}; // from the centres of mass to the contact, m
     std::uint64_t feature = 0;     // what it was found from (manifold.h); 0 for a ball's
     Pairing pairing;
+    bool flown = false;            // it is met in flight (flight.h), if it is fast
     double target = 0;             // the least normal velocity of a against b afterwards, m/s
     glm::dvec3 slip{0};            // the tangential velocity at the contact to reach if friction can, m/s
     double push = 0;               // the normal impulse so far, N·s

@@ -24,14 +24,14 @@ double travelBetween(const Body& a, const Body& b, const FlightRules& rules) {
     return (glm::length(a.velocity - b.velocity) + turningSpeed(a) + turningSpeed(b) + std::fabs(rules.world.gravity) * h) * h;
 }
 
-bool metInFlight(const Body& a, const FlightRules& rules) {
+bool metInFlight(const Body& a, const FlightRules& rules, double travel) {
     if (a.isBall() && pairing(rules.world, a).restitution != 0) return true;
-    return rules.stages.has(Stage::continuous) && travelOf(a, rules) > kNear * a.inner;
+    return rules.stages.has(Stage::continuous) && travel > kNear * a.inner;
 }
 
-bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
+bool metInFlight(const Body& a, const Body& b, const FlightRules& rules, double travel) {
     if (a.isBall() && b.isBall() && pairing(rules.world, a, b).restitution != 0) return true;
-    return rules.stages.has(Stage::continuous) && travelBetween(a, b, rules) > kNear * std::min(a.inner, b.inner);
+    return rules.stages.has(Stage::continuous) && travel > kNear * std::min(a.inner, b.inner);
 }
 
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,

@@ -33,8 +33,11 @@ double travelOf(const Body& body, const FlightRules& rules);
 double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
 /// Whether a contact of the two, or of a with what does not move, is met in flight: balls that bounce, and what is fast. (What
 /// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew.)
-bool metInFlight(const Body& a, const FlightRules& rules);
-bool metInFlight(const Body& a, const Body& b, const FlightRules& rules);
+/// `travel`: of the two against one another, travelOf() or travelBetween().
+bool metInFlight(const Body& a, const FlightRules& rules, double travel);
+bool metInFlight(const Body& a, const Body& b, const FlightRules& rules, double travel);
+inline bool metInFlight(const Body& a, const FlightRules& rules) { return metInFlight(a, rules, travelOf(a, rules)); }
+inline bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) { return metInFlight(a, b, rules, travelBetween(a, b, rules)); }
 /// False only if nothing at all is.
 bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules);
 

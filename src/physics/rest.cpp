@@ -76,7 +76,7 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
     for (Contact& c : contacts) {
         const double approach = -glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal);
         c.target = 0;
-        if (!flown(c, rules)) {
+        if (!c.flown) {
             const bool bounces = has(Stage::restitution) && c.pairing.restitution > 0 && approach > rules.bounce && c.gap < approach * h;
             if (bounces) ++counts_.bounces;
             c.target = bounces ? c.pairing.restitution * approach : -std::max(c.gap, 0.0) / h;
@@ -94,7 +94,6 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
 std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) {
     std::vector<Contact> midway;
     std::vector<Touch> touches;
-    const FlightRules rules = rulesFor(h);
     int of = -1;
     for (const Contact& c : contacts) {
         Contact m = c;
@@ -120,7 +119,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
         const Touch* best = nullptr;
         for (const Touch& t : touches)
             if (!best || glm::dot(t.normal, c.normal) > glm::dot(best->normal, c.normal)) best = &t;
-        if (!best || glm::dot(best->normal, c.normal) < 0.7 || (flown(c, rules) && best->gap > restDepth(a.radius))) continue;
+        if (!best || glm::dot(best->normal, c.normal) < 0.7 || (c.flown && best->gap > restDepth(a.radius))) continue;
         m.normal = best->normal, m.arm_a = -a.radius * m.normal;
         midway.push_back(m);
     }
@@ -131,7 +130,6 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
 /// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
 void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
     const glm::dvec3 fall{0, -world_.gravity * h, 0};
-    const FlightRules rules = rulesFor(h);
     for (Contact& c : contacts) {
         const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
@@ -139,7 +137,7 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
             c.target = -2 * std::max(c.gap, 0.0) / h - std::max(away, 0.0);
             continue;
         }
-        c.target = -away - (flown(c, rules) ? 0 : 2 * std::max(c.gap, 0.0) / h);
+        c.target = -away - (c.flown ? 0 : 2 * std::max(c.gap, 0.0) / h);
         if (!has(Stage::friction)) continue;
         const glm::dvec3 slip = v - away * c.normal;
         const glm::dvec3 pulled = c.b == kStatic ? fall - glm::dot(fall, c.normal) * c.normal : glm::dvec3{0};

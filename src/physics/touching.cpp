@@ -26,10 +26,14 @@ void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts, double h) {
             memory_.keep(b.object.value, 0);
             continue;
         }
-        const double ahead = restDepth(b.inner) + (metInFlight(b, rules) ? 0 : travelOf(b, rules));
+        const double travel = travelOf(b, rules);
+        const bool flown = metInFlight(b, rules, travel);
+        const double ahead = restDepth(b.inner) + (flown ? 0 : travel);
         const double margin = b.isBall() ? std::min(ahead, kNear * b.radius) : ahead;
         if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) continue;
+        const std::size_t before = io_contacts.size();
         collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_contacts);
+        for (std::size_t k = before; k < io_contacts.size(); ++k) io_contacts[k].flown = flown;
     }
 }
 
@@ -76,8 +80,12 @@ void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts, double h) {
         const double most = reach[k].reach + reach[l].reach;
         if (glm::dot(apart, apart) > most * most) continue;
         const Body &a = bodies_[k], &b = bodies_[l];
-        const double margin = restDepth(std::min(a.inner, b.inner)) + (metInFlight(a, b, rules) ? 0 : travelBetween(a, b, rules));
+        const double travel = travelBetween(a, b, rules);
+        const bool flown = metInFlight(a, b, rules, travel);
+        const double margin = restDepth(std::min(a.inner, b.inner)) + (flown ? 0 : travel);
+        const std::size_t before = io_contacts.size();
         collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_contacts);
+        for (std::size_t n = before; n < io_contacts.size(); ++n) io_contacts[n].flown = flown;
     }
 }
 

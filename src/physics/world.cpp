@@ -97,14 +97,9 @@ std::vector<Motion> PhysicsWorld::rest(std::span<Contact> contacts, const Island
     return accelerations;
 }
 
-bool PhysicsWorld::flown(const Contact& c, const FlightRules& rules) const {
-    const Body& a = bodies_[static_cast<std::size_t>(c.a)];
-    return c.b == kStatic ? metInFlight(a, rules) : metInFlight(a, bodies_[static_cast<std::size_t>(c.b)], rules);
-}
-
 /// Fast approaches that are met in flight are the flight's business.
 bool PhysicsWorld::isImpact(const Contact& c, const FlightRules& rules) const {
-    return flown(c, rules) && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
+    return c.flown && glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal) < -rules.bounce;
 }
 
 void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) const {

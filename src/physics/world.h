@@ -106,7 +106,6 @@ private:
     void countShapes();
     void part(double h);
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
-    bool flown(const Contact& c, const FlightRules& rules) const;
     bool allBalls() const { return shapes_ == 0; }
     std::span<Contact> touching(double h);
     void touchStatics(std::vector<Contact>& io_contacts, double h);
