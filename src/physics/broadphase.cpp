@@ -32,77 +32,83 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The bodies of about one size, in the order of their cells: along x, then y, then z.
+/// The bodies of about one size, in rows along x: the rows by z, then y, and each by x.
 class Level {
 public:
     struct Entry {
-        std::uint64_t cell = 0;
+        std::uint64_t row = 0;
         int body = 0;
         Reach reach;
+        double x() const { return reach.centre.x; }
     };
 
     Level(std::span<const Reach> bodies, std::span<const int> members) : lo_(INFINITY) {
-        double largest = 0;
         for (const int i : members) {
             lo_ = glm::min(lo_, bodies[static_cast<std::size_t>(i)].centre);
-            largest = std::max(largest, bodies[static_cast<std::size_t>(i)].reach);
+            largest_ = std::max(largest_, bodies[static_cast<std::size_t>(i)].reach);
         }
-        size_ = 2 * largest * (1 + 1e-9);  // rounding does not make two that overlap two cells apart
+        entries_.reserve(members.size());
         for (const int i : members) {
             const Reach& r = bodies[static_cast<std::size_t>(i)];
-            entries_.push_back({cellOf(r.centre), i, r});
+            entries_.push_back({rowOf(r.centre), i, r});
         }
-        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : a.body < b.body; });
+        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+            return a.row != b.row ? a.row < b.row : a.x() != b.x() ? a.x() < b.x() : a.body < b.body;
+        });
     }
 
-    /// Of the level's own: each cell with itself, with the next along x, and with the rows behind it in the order.
+    /// Of the level's own: each with those behind it in its row, and with the rows around it that are behind in the order.
     void addPairs(Pairs& io_pairs) const {
-        constexpr std::array kRows{kRow, kLayer - kRow, kLayer, kLayer + kRow};
-        std::array<std::size_t, kRows.size()> first{};  // where each row's neighbours begin: they come in order, as the cells do
+        constexpr std::array<std::uint64_t, 4> kRows{1, kLayer - 1, kLayer, kLayer + 1};
+        std::array<std::size_t, kRows.size()> first{};  // where each row's neighbours begin: they come in order, as the entries do
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Entry& e = entries_[i];
-            std::size_t end = i + 1;
-            while (end < entries_.size() && entries_[end].cell <= e.cell + 1) ++end;
-            add(e, i + 1, end, io_pairs);
-            for (std::size_t row = 0; row < kRows.size(); ++row) {
-                const std::uint64_t middle = e.cell + kRows[row];
-                std::size_t& k = first[row];
-                while (k < entries_.size() && entries_[k].cell < middle - 1) ++k;
-                end = k;
-                while (end < entries_.size() && entries_[end].cell <= middle + 1) ++end;
-                add(e, k, end, io_pairs);
+            add(e, e.row, i + 1, io_pairs);
+            for (std::size_t k = 0; k < kRows.size(); ++k) {
+                const std::uint64_t row = e.row + kRows[k];
+                while (first[k] < entries_.size() && isBefore(entries_[first[k]], row, e)) ++first[k];
+                add(e, row, first[k], io_pairs);
             }
         }
     }
     /// Of one of a finer level with this one's.
     void addPairsOf(const Entry& finer, Pairs& io_pairs) const {
-        const std::uint64_t cell = cellOf(finer.reach.centre);
-        for (const std::uint64_t layer : {cell - kLayer, cell, cell + kLayer})
-            for (const std::uint64_t middle : {layer - kRow, layer, layer + kRow}) {
-                const auto begin = std::ranges::lower_bound(entries_, middle - 1, {}, &Entry::cell);
-                const auto end = std::ranges::upper_bound(begin, entries_.end(), middle + 1, {}, &Entry::cell);
-                add(finer, static_cast<std::size_t>(begin - entries_.begin()), static_cast<std::size_t>(end - entries_.begin()), io_pairs);
+        const std::uint64_t middle = rowOf(finer.reach.centre);
+        for (const std::uint64_t layer : {middle - kLayer, middle, middle + kLayer})
+            for (const std::uint64_t row : {layer - 1, layer, layer + 1}) {
+                const auto first = std::partition_point(entries_.begin(), entries_.end(), [&](const Entry& e) { return isBefore(e, row, finer); });
+                add(finer, row, static_cast<std::size_t>(first - entries_.begin()), io_pairs);
             }
     }
     std::span<const Entry> entries() const { return entries_; }
 
 private:
-    static constexpr std::uint64_t kRow = std::uint64_t{1} << 21, kLayer = kRow << 21;
+    static constexpr std::uint64_t kLayer = std::uint64_t{1} << 31;
 
-    void add(const Entry& e, std::size_t begin, std::size_t end, Pairs& io_pairs) const {
-        io_pairs.expect(end - begin);
-        for (std::size_t k = begin; k < end; ++k) io_pairs.add(e.body, entries_[k].body, overlap(e.reach, entries_[k].reach));
+    /// How far apart two may lie along an axis and overlap, of which this one's reach is given; rounding included.
+    double apart(const Entry& e) const { return (e.reach.reach + largest_) * (1 + 1e-9) + 1e-12 * std::fabs(e.x()); }
+    /// Whether an entry comes before all of that row that may overlap e.
+    bool isBefore(const Entry& entry, std::uint64_t row, const Entry& e) const {
+        return entry.row < row || (entry.row == row && entry.x() < e.x() - apart(e));
     }
-    /// Cells beyond the last are the last: what is near stays near, however far out it is.
-    std::uint64_t cellOf(glm::dvec3 centre) const {
-        constexpr double kLast = static_cast<double>(kRow - 3);
-        std::uint64_t cell = 0;
-        for (const int axis : {2, 1, 0}) cell = cell * kRow + 1 + static_cast<std::uint64_t>(std::clamp(std::floor((centre[axis] - lo_[axis]) / size_), 0.0, kLast));
-        return cell;
+    /// Those of a row, from the first that may overlap e.
+    void add(const Entry& e, std::uint64_t row, std::size_t first, Pairs& io_pairs) const {
+        const double last = e.x() + apart(e);
+        std::size_t end = first;
+        while (end < entries_.size() && entries_[end].row == row && entries_[end].x() <= last) ++end;
+        io_pairs.expect(end - first);
+        for (std::size_t k = first; k < end; ++k) io_pairs.add(e.body, entries_[k].body, overlap(e.reach, entries_[k].reach));
+    }
+    /// Rows beyond the last are the last: what is near stays near, however far out it is.
+    std::uint64_t rowOf(glm::dvec3 centre) const {
+        constexpr double kLast = static_cast<double>(kLayer - 3);
+        const double size = 2 * largest_ * (1 + 1e-9);  // rounding does not make two that overlap two rows apart
+        const auto cell = [&](int axis) { return 1 + static_cast<std::uint64_t>(std::clamp(std::floor((centre[axis] - lo_[axis]) / size), 0.0, kLast)); };
+        return cell(2) * kLayer + cell(1);
     }
 
     glm::dvec3 lo_;
-    double size_ = 0;                       // of a cell, m
+    double largest_ = 0;                    // reach, m
     std::vector<Entry> entries_;
 };
 

@@ -93,27 +93,37 @@ void Crowd::set(std::span<const Body> bodies, std::span<const Contact> contacts,
         lane[k] = kLanes * batches;
         batches += (count + each - 1) / each;
     }
-    batches_.assign(batches, {});
-    const int still = static_cast<int>(bodies.size());
-    for (Batch& batch : batches_) {
-        batch.a.fill(still), batch.b.fill(still), batch.contact.fill(kNone);
-        batch.row.normal_mass = all<Lanes>(1);
-    }
-    const bool spins = stages.has(Stage::spin);
+    batches_.resize(batches);
+    for (Batch& batch : batches_) batch.contact.fill(kNone);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t colour = colours_[i];
-        const std::uint32_t place = lane[colour];
+        batches_[lane[colour] / kLanes].contact[lane[colour] % kLanes] = numbers[i];
         lane[colour] += colour + 1 < kColours ? 1 : kLanes;
-        Batch& batch = batches_[place / kLanes];
-        const int l = static_cast<int>(place % kLanes);
+    }
+    for (Batch& batch : batches_) fill(batch, bodies, contacts, stages.has(Stage::spin));
+}
+
+/// Sets what a batch knows of its contacts' bodies. Where there is no contact, nothing is moved by anything.
+void Crowd::fill(Batch& io_batch, std::span<const Body> bodies, std::span<const Contact> contacts, bool spins) {
+    const int still = static_cast<int>(bodies.size());
+    auto& row = io_batch.row;
+    for (int l = 0; l < kLanes; ++l) {
         const auto k = static_cast<std::size_t>(l);
-        const Contact& c = contacts[numbers[i]];
+        if (io_batch.contact[k] == kNone) {
+            io_batch.a[k] = io_batch.b[k] = still;
+            setLane(row.normal, l, glm::dvec3{0}), setLane(row.drag, l, glm::dvec3{0});
+            row.inverse_a[l] = row.inverse_b[l] = row.radius_a[l] = row.radius_b[l] = row.turn_a[l] = row.turn_b[l] = 0;
+            row.normal_mass[l] = row.tangent_mass[l] = 1;
+            row.friction[l] = row.target[l] = row.push[l] = 0;
+            continue;
+        }
+        const Contact& c = contacts[io_batch.contact[k]];
         const BallNumbers of(bodies, c);
-        batch.a[k] = c.a, batch.b[k] = c.b == kStatic ? still : c.b, batch.contact[k] = numbers[i];
-        auto& row = batch.row;
+        io_batch.a[k] = c.a, io_batch.b[k] = c.b == kStatic ? still : c.b;
         setLane(row.normal, l, c.normal);
         row.inverse_a[l] = of.inverse_a, row.inverse_b[l] = of.inverse_b, row.normal_mass[l] = of.normalMass();
-        if (spins) row.radius_a[l] = of.radius_a, row.radius_b[l] = of.radius_b, row.turn_a[l] = of.turn_a, row.turn_b[l] = of.turn_b;
+        row.radius_a[l] = spins ? of.radius_a : 0, row.radius_b[l] = spins ? of.radius_b : 0;
+        row.turn_a[l] = spins ? of.turn_a : 0, row.turn_b[l] = spins ? of.turn_b : 0;
         row.tangent_mass[l] = of.tangentMass(spins), row.friction[l] = c.pairing.friction;
     }
 }

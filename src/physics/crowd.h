@@ -38,6 +38,8 @@ public:
     void finish(std::span<Contact> contacts) const;
 
 private:
+    static void fill(Batch& io_batch, std::span<const Body> bodies, std::span<const Contact> contacts, bool spins);
+
     std::vector<Batch> batches_;
     std::vector<std::uint8_t> colours_;                    // of the contacts
 };

@@ -71,7 +71,12 @@ bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules) {
 void Flight::run() {
     if (has(Stage::continuous) && anyMetInFlight(bodies_, rules_)) {
         for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
-        for (const auto& [i, j] : pairs_) expectPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        std::vector<double> travel;
+        for (const Body& b : bodies_) travel.push_back(b.isBall() && pairing(rules_.world, b).restitution != 0 ? INFINITY : travelOf(b, rules_));
+        for (const auto& [i, j] : pairs_) {
+            const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+            if (travel[k] + travel[l] > kNear * std::min(bodies_[k].inner, bodies_[l].inner)) expectPair(k, l);
+        }
     }
     if (!events_.empty()) motion_.resize(bodies_.size()), rememberReach();
     while (!events_.empty()) {

@@ -44,20 +44,21 @@ Reach PhysicsWorld::reachOf(std::size_t i, glm::dvec3 drift, double pull, double
     return {b.position, b.radius + restDepth(b.inner) + fastest * time};
 }
 
-/// Sees to it that the list of pairs holds through the part. What is found anew is good for a step, and if little moves for more.
+/// Sees to it that the list of pairs holds through the part. What is found anew is good for some
+/// steps, unless something is made faster.
 /// `accelerations`: of the bodies, if they are known.
 void PhysicsWorld::coverPairs(double h, std::span<const Motion> accelerations) {
     const auto needs = [&](std::size_t i) {
         return reachOf(i, pairs_.drift(), accelerations.empty() ? 0 : glm::length(accelerations[i].velocity), h);
     };
     if (pairs_.holds(bodies_.size(), needs)) return;
-    constexpr double kMore = 0.05;  // of the radius
+    constexpr double kMore = 0.05, kAhead = 4;  // of the radius; steps
     glm::dvec3 drift{0};
     for (const Body& b : bodies_) drift += b.velocity / static_cast<double>(bodies_.size());
     std::vector<Reach> reach;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const double pull = accelerations.empty() ? 0 : glm::length(accelerations[i].velocity);
-        reach.push_back(reachOf(i, drift, pull, knobs_.dt));
+        reach.push_back(reachOf(i, drift, pull, kAhead * knobs_.dt));
         reach.back().reach += kMore * bodies_[i].radius;
     }
     pairs_.find(std::move(reach), drift);
