@@ -58,6 +58,8 @@ Solid makeSolid(Tree tree, bool with_points, const Solid* before) {
     solid.box = bounds(solid.tree);
     solid.radius = radiusOf(solid.box);
     solid.side = sidesOf(solid.tree);
+    solid.convex = solid.tree.program.size() == 1 && solid.tree.leaves.size() == 1 && solid.side[0] > 0 && solid.tree.leaves[0].primitive->convex &&
+                   solid.tree.leaves[0].primitive->exact;
     solid.blended = movesSurfaces(solid.tree) || std::ranges::any_of(solid.tree.branches, [](const Branch& b) { return b.blend > 0; });
     if (solid.tree.leaves.size() > kMany) solid.grid = gridOf(solid.tree, Grid::Exact::everywhere, before ? before->grid.get() : nullptr);
     if (with_points && isFinite(solid.box)) solid.points = surfacePoints(solid.tree, solid.box, solid.inner);

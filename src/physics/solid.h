@@ -13,6 +13,9 @@ struct Solid {
     double radius = 0;                 // of the ball about the frame's origin that holds the box, m; infinite where that is
     double inner = 0;                  // how deep the field is at its deepest among the samples, m: half the thickness
     std::vector<signed char> side;     // of each leaf: 1 as it is, -1 taken away, 0 where operators move its surface
+    const Leaf* lone() const { return convex ? &tree.leaves[0] : nullptr; }  // all there is of it, if that is convex and exact
+
+    bool convex = false;
     bool blended = false;              // the surface lies elsewhere than on the leaves' own, somewhere
     std::shared_ptr<const Grid> grid;  // of one of many leaves
     SurfacePoints points;              // none, where the box is infinite

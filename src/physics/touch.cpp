@@ -147,7 +147,10 @@ FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vec
     if (outside > margin) return {outside, outside};
     std::vector<Touch> found;
     const Search search{solid, ball.centre, ball.radius, margin, found, io_evaluations};
-    const double f = search.field(ball.centre);
+    const Leaf* lone = solid.lone();
+    const Slope of_lone = lone ? slope(*lone, ball.centre) : Slope{};
+    if (lone) ++io_evaluations;
+    const double f = lone ? of_lone.distance : search.field(ball.centre);
     FreeGap gap{INFINITY, f - ball.radius};
     if (f - ball.radius > margin) return {f - ball.radius, f - ball.radius};
     if (f <= 2 * kTooNear * ball.radius) {
@@ -155,6 +158,9 @@ FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vec
         const glm::dvec3 g = solid.slopeAt(ball.centre).gradient;
         const double l = glm::length(g);
         const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};
+        found.push_back({ball.centre - f * n, n, f - ball.radius});
+    } else if (lone) {
+        const glm::dvec3 n = glm::normalize(of_lone.gradient);
         found.push_back({ball.centre - f * n, n, f - ball.radius});
     } else {
         search.facesEdgesCorners();

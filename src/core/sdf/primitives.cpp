@@ -135,27 +135,33 @@ constexpr Primitive weighed(std::optional<Matter> (*matter)(const LeafNumbers&),
     return p;
 }
 
+/// The row of a convex one.
+constexpr Primitive convex(Primitive p) {
+    p.convex = true;
+    return p;
+}
+
 constexpr Primitive kPrimitives[] = {
-    weighed(sphereMatter, filled(MB_SPAN(innerSphere), spanned(MB_SPAN(spanSphere), row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
-        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })))),
-    weighed(boxMatter, filled(MB_SPAN(innerBox), spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
-        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); })))),
-    filled(MB_SPAN(spanPlane), spanned(MB_SPAN(spanPlane), boundless(movePlane, row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent)))),
+    convex(weighed(sphereMatter, filled(MB_SPAN(innerSphere), spanned(MB_SPAN(spanSphere), row({.name = "sphere", .glsl = "sdSphere", .tip = "A ball", .turns = false}, kSphere, MB_FUNCTION(sdSphere),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }))))),
+    convex(weighed(boxMatter, filled(MB_SPAN(innerBox), spanned(MB_SPAN(spanBox), row({"box", "sdBox", "A box, its edges rounded if wished"}, kBox, MB_FUNCTION(sdBox),
+        [](const LeafNumbers& k) { return around(k[0] / 2, k[1] / 2, k[2] / 2); }))))),
+    convex(filled(MB_SPAN(spanPlane), spanned(MB_SPAN(spanPlane), boundless(movePlane, row({"plane", "sdPlane", "Everything below a plane", true, cookPlane}, kPlane, MB_FUNCTION(sdPlane), planeExtent))))),
     weighed(torusMatter, spanned(MB_SPAN(spanTorus), row({"torus", "sdTorus", "A ring around y"}, kTorus, MB_FUNCTION(sdTorus),
         [](const LeafNumbers& k) { return around(k[0] + k[1], k[1], k[0] + k[1]); }))),
-    weighed(cylinderMatter, filled(MB_SPAN(innerCylinder), spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
-        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); })))),
-    weighed(capsuleMatter, filled(MB_SPAN(innerCapsule), spanned(MB_SPAN(spanCapsule), row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
-        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); })))),
-    weighed(coneMatter, spanned(MB_SPAN(spanCone), row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
-        [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); }))),
+    convex(weighed(cylinderMatter, filled(MB_SPAN(innerCylinder), spanned(MB_SPAN(spanCylinder), row({"cylinder", "sdCylinder", "An upright cylinder"}, kCylinder, MB_FUNCTION(sdCylinder),
+        [](const LeafNumbers& k) { return around(k[0], k[1] / 2, k[0]); }))))),
+    convex(weighed(capsuleMatter, filled(MB_SPAN(innerCapsule), spanned(MB_SPAN(spanCapsule), row({"capsule", "sdCapsule", "An upright cylinder with round ends"}, kCapsule, MB_FUNCTION(sdCapsule),
+        [](const LeafNumbers& k) { return around(k[0], k[0] + k[1] / 2, k[0]); }))))),
+    convex(weighed(coneMatter, spanned(MB_SPAN(spanCone), row({"cone", "sdCone", "An upright cone, whole or cut off"}, kCone, MB_FUNCTION(sdCone),
+        [](const LeafNumbers& k) { return around(std::max(k[0], k[1]), k[2] / 2, std::max(k[0], k[1])); })))),
     weighed(ellipsoidMatter, spanned(MB_SPAN(spanEllipsoid), row({.name = "ellipsoid", .glsl = "sdEllipsoid", .tip = "A ball stretched along the axes", .exact = false, .rises = ellipsoidRises},
         kEllipsoid, MB_FUNCTION(sdEllipsoid),
         [](const LeafNumbers& k) { return around(k[0], k[1], k[2]); }))),
-    weighed(octahedronMatter, spanned(MB_SPAN(spanOctahedron), row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
-        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); }))),
-    weighed(prismMatter, filled(MB_SPAN(innerPrism), spanned(MB_SPAN(spanPrism), row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
-        prismExtent)))),
+    convex(weighed(octahedronMatter, spanned(MB_SPAN(spanOctahedron), row({"octahedron", "sdOctahedron", "Eight triangles"}, kOctahedron, MB_FUNCTION(sdOctahedron),
+        [](const LeafNumbers& k) { return around(k[0], k[0], k[0]); })))),
+    convex(weighed(prismMatter, filled(MB_SPAN(innerPrism), spanned(MB_SPAN(spanPrism), row({"prism", "sdPrism", "An upright column of 3 to 12 sides", true, cookPrism, "apothem"}, kPrism, MB_FUNCTION(sdPrism),
+        prismExtent))))),
 };
 
 }  // namespace

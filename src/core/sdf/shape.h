@@ -55,6 +55,7 @@ struct Primitive : ShapeType {
     std::string_view glsl;                     // the function: sdSphere
     std::string_view derived;                  // one more number behind the keys' own, or none: its name in the GLSL
     bool exact = true;                         // |gradient| is 1 almost everywhere, not only at most 1
+    bool convex = false;                       // of an exact one: the point nearest to a place outside is the only one that is nearest around
     bool turns = true;                         // a rotation changes it; false for the ball alone
     void (*cook)(LeafNumbers&) = nullptr;      // makes the numbers the GLSL takes from the scaled ones of the file
     Box (*extent)(const LeafNumbers&) = nullptr;  // the tightest box around it, from cooked numbers
