@@ -62,7 +62,7 @@ const Entry kEntries[] = {
     {.menu = "Settings", .name = "Controls", .shortcut = {GLFW_KEY_F1, false, "F1"}, .tip = "what the mouse and the keys do",
      .draw = drawControls, .width = 430},
     {.menu = "Settings", .name = "Debug", .tip = "the live state of every body", .draw = drawDebug, .width = 740, .height = 320},
-    {.menu = "Settings", .name = "Constants", .tip = "gravity, restitution, friction, and the steps of time", .draw = drawConstants},
+    {.menu = "Settings", .name = "Constants", .tip = "gravity and where it points, restitution, friction, and the steps of time", .draw = drawConstants},
     {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
     {.menu = "Settings", .name = "Effects", .shortcut = {GLFW_KEY_F2, false, "F2"}, .tip = "what the scene calls for, by which records, and what it costs",
      .draw = drawEffects, .width = 760, .height = 520},

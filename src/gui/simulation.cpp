@@ -16,7 +16,7 @@ void takeShapes(const Scene& from, Scene& io_scene) {
         if (const auto same = now.find(o.id.value); same != now.end()) o.name = same->second->name, o.material = same->second->material;
     io_scene.objects = std::move(objects);
     io_scene.physics = from.physics;
-    for (const auto felt : kFelt) io_scene.world.*felt = from.world.*felt;
+    std::apply([&](auto... felt) { ((io_scene.world.*felt = from.world.*felt), ...); }, kFelt);
 }
 
 }  // namespace

@@ -4,11 +4,15 @@
 #include "physics/timeline.h"
 
 #include <optional>
+#include <tuple>
 
 namespace mb {
 
 /// What of the world its bodies feel; the rest is looks.
-inline constexpr double World::* kFelt[] = {&World::gravity, &World::restitution, &World::friction, &World::bounds};
+inline constexpr std::tuple kFelt{&World::gravity, &World::down, &World::restitution, &World::friction, &World::bounds};
+inline bool feelsAlike(const World& a, const World& b) {
+    return std::apply([&](auto... felt) { return ((a.*felt == b.*felt) && ...); }, kFelt);
+}
 
 class Simulation {
 public:

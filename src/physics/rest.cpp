@@ -135,7 +135,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
 /// What the velocities after the part shall be: in mean no approach beyond the gap there is. For a ball's friction no slip, unless
 /// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
 void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
-    const glm::dvec3 fall{0, -world_.gravity * h, 0};
+    const glm::dvec3 fall = world_.fall() * h;
     for (Contact& c : contacts) {
         const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
@@ -214,7 +214,7 @@ void PhysicsWorld::keep(std::span<const Contact> contacts) {
 std::vector<Motion> PhysicsWorld::falling() const {
     std::vector<Motion> accelerations(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) accelerations[i].velocity = {0, -world_.gravity, 0};
+        if (bodies_[i].awake) accelerations[i].velocity = world_.fall();
     return accelerations;
 }
 
@@ -226,7 +226,7 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
     takeKept(midway);
     std::vector<Motion> after(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) after[i] = {bodies_[i].velocity + glm::dvec3{0, -world_.gravity * h, 0}, bodies_[i].spin};
+        if (bodies_[i].awake) after[i] = {bodies_[i].velocity + world_.fall() * h, bodies_[i].spin};
     std::vector<char> carried(bodies_.size(), 0);
     for (const Contact& c : midway) {
         carried[at(c.a)] = 1;

@@ -38,7 +38,7 @@ private:
     std::vector<glm::dvec3> last_;                   // the places before the step
 };
 
-/// The same by closed form, or nothing: where no body meets another, and none meets anything but one level plane. Each flight is a
+/// The same by closed form, or nothing: where no body meets another, and none meets anything but one level plane, and `down` is -y. Each flight is a
 /// parabola, each impact Newton's with Coulomb's friction (a solid ball's; Brogliato, "Nonsmooth Mechanics", 1999). Nothing
 /// either where a ball comes to rest within the time.
 std::optional<Track> closedTrack(const Scene& scene, double seconds, double every_s);

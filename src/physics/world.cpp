@@ -174,7 +174,7 @@ Energy PhysicsWorld::energy() const {
     Energy e;
     for (const Body& b : bodies_) {
         e.kinetic += kineticEnergy(b, motionOf(b));
-        e.potential += world_.gravity * b.position.y / b.inverse_mass;
+        e.potential -= glm::dot(world_.fall(), b.position) / b.inverse_mass;
     }
     return e;
 }

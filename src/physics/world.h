@@ -22,7 +22,7 @@ inline constexpr double kStillTime = 0.5;      // s: a ball sleeps that touches 
 inline constexpr double kWeakFall = 0.03;      // m/s: where gravity gives less in a part, what is still is slower in proportion
 
 struct Energy {
-    double kinetic = 0, potential = 0;         // J; potential is 0 at y = 0
+    double kinetic = 0, potential = 0;         // J; potential is 0 at the origin
     double total() const { return kinetic + potential; }
 };
 

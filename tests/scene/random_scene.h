@@ -61,6 +61,8 @@ private:
             if (!key.required && below(3) == 0) continue;
             std::visit([&](auto member) {
                 set(valueAt(record, member), key.lo, key.hi, name);
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(valueAt(record, member))>, glm::dvec3>)
+                    if (key.direction && valueAt(record, member) == glm::dvec3{0}) valueAt(record, member).y = 1;
                 if constexpr (std::is_same_v<decltype(member), Slot>)
                     if (member.whole) valueAt(record, member) = std::floor(valueAt(record, member));
             }, key.member);

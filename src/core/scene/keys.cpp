@@ -13,7 +13,8 @@ constexpr double kHuge = 1e12;
 constexpr std::string_view kPatternWords[] = {"none", "checker"};
 
 const Key<World> kWorld[] = {
-    {"gravity", &World::gravity, "m/s²", "along −y", -1e4, 1e4, 0, 30},
+    {"gravity", &World::gravity, "m/s²", "along `down`", -1e4, 1e4, 0, 30},
+    {"down", &World::down, "", "where things fall to, of any length but 0", -kHuge, kHuge, -1, 1, false, false, false, true},
     {"restitution", &World::restitution, "", "bounciness of bodies that state none of their own", 0, 1, 0, 1},
     {"friction", &World::friction, "", "of bodies that state none of their own", 0, 1e3, 0, 2},
     {"background", &World::background, "", "colour where no ray hits", 0, 1e6, 0, 1},

@@ -29,12 +29,16 @@ enum class Carrier { world, render, light, material };
 Extra initialExtra(Carrier carrier);
 
 struct World {
-    double gravity = 9.81;       // m/s², along −y
+    double gravity = 9.81;       // m/s², along `down`
+    glm::dvec3 down{0, -1, 0};   // of any length but 0
     double restitution = 0.6;    // of bodies that state none of their own
     double friction = 0.4;
     glm::dvec3 background{0};
     double bounds = 50;          // m: a body further than this from the origin is removed
     Extra extra = initialExtra(Carrier::world);
+
+    /// What falls freely is accelerated by this, m/s².
+    glm::dvec3 fall() const;
 };
 
 struct Camera {
