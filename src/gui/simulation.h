@@ -9,7 +9,7 @@
 namespace mb {
 
 /// What of the world its bodies feel; the rest is looks.
-inline constexpr std::tuple kFelt{&World::gravity, &World::down, &World::restitution, &World::friction, &World::bounds};
+inline constexpr std::tuple kFelt{&World::gravity, &World::down, &World::restitution, &World::friction, &World::rolling, &World::spinning, &World::bounds};
 inline bool feelsAlike(const World& a, const World& b) {
     return std::apply([&](auto... felt) { return ((a.*felt == b.*felt) && ...); }, kFelt);
 }

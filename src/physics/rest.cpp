@@ -6,6 +6,7 @@
 // (Hairer, Lubich, Wanner, "Geometric Numerical Integration", 2006, section IV.1). With the normal at the start instead, a
 // ball in a bowl would gain energy at every part.
 #include "core/effects/effect.h"
+#include "physics/rolling.h"
 #include "physics/world.h"
 
 #include <glm/geometric.hpp>
@@ -232,7 +233,9 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
         carried[at(c.a)] = 1;
         if (c.b != kStatic) carried[at(c.b)] = 1;
     }
+    const std::vector<Motion> free = has(Stage::rolling) ? after : std::vector<Motion>{};
     solve(bodies_, midway, after, knobs_.iterations, stages_, counts_);
+    if (has(Stage::rolling)) resistRolling(bodies_, midway, free, after, knobs_.iterations, stages_, counts_);
     keep(midway);
     contacts_ = static_cast<int>(std::count_if(midway.begin(), midway.end(), [](const Contact& c) { return c.push > 0; }));
 

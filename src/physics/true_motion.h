@@ -13,7 +13,7 @@ struct Track {
     std::vector<std::vector<glm::dvec3>> places;     // [moment][body], of its centre; NaN once it is gone
     std::vector<double> energy, kinetic;             // J, at each moment
     double deepest = 0;                              // m: overlap after any step
-    int lost = 0;                                    // bodies that are gone at the end
+    int lost = 0;                                    // bodies that are gone or frozen at the end
     std::uint64_t visits = 0;                        // see Cost::visits
 };
 

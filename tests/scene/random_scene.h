@@ -91,7 +91,7 @@ private:
         if (!s.materials.empty() && below(2) != 0) o.material = below(static_cast<int>(s.materials.size()));
         numbers(o);
         if (o.mass != 0 || std::signbit(o.mass)) o.density = 0;
-        if (parent != kNoParent) o.mass = o.density = 0, o.vel = o.spin = {}, o.restitution = o.friction = {};
+        if (parent != kNoParent) o.mass = o.density = 0, o.vel = o.spin = {}, o.restitution = o.friction = o.rolling = o.spinning = {};
         s.objects.push_back(o);
         const int most = std::min(o.type->max_children, o.type->min_children + 2);
         for (int n = o.type->isOperator() ? o.type->min_children + below(most - o.type->min_children + 1) : 0; n > 0; --n)
