@@ -53,6 +53,10 @@ const Entry kEntries[] = {
      .run = [](Ui& ui) { ui.editor.reset(); }, .enabled = canReset},
     {.menu = "Motion", .name = "Throw about", .shortcut = {GLFW_KEY_J, false, "J"}, .tip = "gives every body a push",
      .run = [](Ui& ui) { ui.editor.throwAbout(); }},
+    {.menu = "Motion", .name = "Explode", .shortcut = {GLFW_KEY_X, false, "X"},
+     .tip = "blows the bodies away from what is under the mouse; else from the middle of the picture", .run = explodeThere},
+    {.menu = "Motion", .name = "Meters", .shortcut = {GLFW_KEY_F5, false, "F5"}, .tip = "energy, momentum, overlap and contacts, now and over the last steps",
+     .draw = drawMeters, .width = 420},
     {.menu = "Motion", .name = "Timeline", .shortcut = {GLFW_KEY_F4, false, "F4"}, .tip = "back and forth through all steps made",
      .draw = drawTimeline, .place = Place::below_picture, .height = 88},
     {.menu = "Motion", .name = "Save recording", .tip = "the run so far, to be made again and compared step by step", .draw = drawSaveRecording,
@@ -72,6 +76,7 @@ const Entry kEntries[] = {
 
 constexpr MouseControl kMouse[] = {
     {"Left drag", "turns the view around the scene"},
+    {"Shift + left drag on a body", "holds it by a spring, and plays; letting go throws it"},
     {"Middle drag", "moves the view sideways"},
     {"Wheel", "comes nearer or goes further"},
     {"Right click on an object", "opens its attributes; once more: those of the part under the mouse"},
@@ -196,6 +201,7 @@ void Ui::stopMeasuring() {
 void drawInterface(Ui& ui) {
     drawMenuBar(ui);
     layOut(ui);
+    drawHand(ui);
     for (std::size_t i = 0; i < entries().size(); ++i)
         if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
     if (!ui.isOpen("Effects")) ui.picture.pricing = ui.pricing_motion = false;  // nobody waits for it
