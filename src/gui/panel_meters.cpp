@@ -58,7 +58,9 @@ void drawMeters(Ui& ui) {
     const double deepest = world->maxPenetration();
     watch(ui.meters, *world, deepest);
     const Energy energy = world->energy();
-    if (ImGui::BeginTable("meters", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (ImGui::BeginTable("meters", 2)) {
+        ImGui::TableSetupColumn("meter", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
         line("energy", fmt::format("{:.6g} J", energy.total()), "kinetic and potential");
         line("kinetic", fmt::format("{:.6g} J", energy.kinetic), "of moving and turning");
         line("potential", fmt::format("{:.6g} J", energy.potential), "of weight; 0 at the origin");

@@ -227,6 +227,29 @@ TEST_CASE("case 85: a body whose velocity is no number is frozen at once and nam
     }
 }
 
+TEST_CASE("case 85: what becomes no number within a step stays where it was before it") {
+    for (const std::string_view kind : kKinds)
+        for (const double gravity : {std::nan(""), HUGE_VAL, 1e308}) {
+            Scene s = scene(1.0 / 120, 0.5, 0.5);
+            floor(s);
+            bodyOf(s, kind, {0, 1, 0}, 0.2), bodyOf(s, kind, {0.1, 2, 0}, 0.2);
+            PhysicsWorld w(s);
+            run(w, 0.1);
+            const glm::dvec3 at = w.bodies()[0].position;
+            s.world.gravity = gravity;
+            w.changeStatics(s);
+            for (int i = 0; i < 3; ++i) w.step();
+            CAPTURE(kind); CAPTURE(gravity);
+            REQUIRE(w.bodies().size() + w.frozen().size() + static_cast<std::size_t>(w.removed()) == 2);
+            for (const Body& b : w.frozen()) CHECK(finite(b));
+            for (const Body& b : w.bodies()) CHECK(finite(b));
+            if (std::isfinite(gravity)) continue;
+            REQUIRE(w.frozen().size() == 2);
+            CHECK(w.frozen()[0].position == at);
+            CHECK(w.notes().size() == 2);
+        }
+}
+
 TEST_CASE("case 86: bodies come and go while it steps: no id comes twice, what is kept of one goes with it, no memory stays") {
     // A world takes bodies from its scene and gives them back: what is added needs a world made anew.
     const int rounds = times(1'000);
