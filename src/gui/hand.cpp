@@ -49,8 +49,7 @@ void drawHand(const Ui& ui) {
     list.AddLine(*from, *to, kLine, 1.5f * scale);
     list.AddCircleFilled(*from, 3 * scale, kLine);
     list.PopClipRect();
-    ui::seen_panel = "picture";
-    ui::note("held", *from, *to);
+    if (ui::seen) ui::seen->push_back({"picture", "held", *from, *to, overPicture(ui, *from) && overPicture(ui, *to)});
 }
 
 void explodeThere(Ui& ui) {
