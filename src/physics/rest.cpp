@@ -233,9 +233,7 @@ void PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<
         carried[at(c.a)] = 1;
         if (c.b != kStatic) carried[at(c.b)] = 1;
     }
-    const std::vector<Motion> free = has(Stage::rolling) ? after : std::vector<Motion>{};
-    solve(bodies_, midway, after, knobs_.iterations, stages_, counts_);
-    if (has(Stage::rolling)) resistRolling(bodies_, midway, free, after, knobs_.iterations, stages_, counts_);
+    solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
     keep(midway);
     contacts_ = static_cast<int>(std::count_if(midway.begin(), midway.end(), [](const Contact& c) { return c.push > 0; }));
 

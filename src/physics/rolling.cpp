@@ -69,12 +69,14 @@ double turn(Twist& io_twist, const Response& response, std::span<glm::dvec3> io_
 
 }  // namespace
 
-void resistRolling(std::span<const Body> bodies, std::span<Contact> io_contacts, std::span<const Motion> free, std::span<Motion> io_motion,
-                   int rounds, Stages stages, StepCounts& io_counts) {
+void solveResisting(std::span<const Body> bodies, std::span<Contact> io_contacts, std::span<Motion> io_motion, int rounds, Stages stages,
+                    StepCounts& io_counts) {
     std::vector<Twist> twists;
     for (const Contact& c : io_contacts)
-        if (c.pairing.rolling > 0 || c.pairing.spinning > 0) twists.push_back({c});
-    if (twists.empty() || !stages.has(Stage::spin)) return;
+        if (stages.has(Stage::rolling) && stages.has(Stage::spin) && (c.pairing.rolling > 0 || c.pairing.spinning > 0)) twists.push_back({c});
+    const std::vector<Motion> free = twists.empty() ? std::vector<Motion>{} : std::vector<Motion>(io_motion.begin(), io_motion.end());
+    solve(bodies, io_contacts, io_motion, rounds, stages, io_counts);
+    if (twists.empty()) return;
     const bool drags = stages.has(Stage::friction);
     std::vector<glm::dvec3> spins(bodies.size());
     for (int round = 0; round < rounds; ++round) {
