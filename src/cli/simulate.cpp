@@ -115,11 +115,12 @@ void run(const Options& options, const Common& common) {
         for (const std::string& note : world.notes()) fmt::print(stderr, "{}: note: {}\n", options.scene, note);
 
     const auto energy = world.energy();
-    const glm::dvec3 p = world.momentum();
+    const glm::dvec3 p = world.momentum(), l = world.angularMomentum();
     const nlohmann::ordered_json json = {
         {"seconds", world.time_s()}, {"steps", world.steps()}, {"bodies", world.bodies().size()}, {"awake", world.awake()},
         {"step_ms", step_ms.empty() ? 0 : median(step_ms)}, {"energy", {{"kinetic", energy.kinetic}, {"potential", energy.potential}}},
-        {"momentum", {p.x, p.y, p.z}}, {"max_penetration", world.maxPenetration()}, {"removed", world.removed()},
+        {"momentum", {p.x, p.y, p.z}}, {"angular_momentum", {l.x, l.y, l.z}}, {"max_penetration", world.maxPenetration()},
+        {"contacts", world.contacts()}, {"removed", world.removed()}, {"frozen", world.frozen().size()},
         {"stages", namesOf(called)}, {"counts", asJson(world.counts())}, {"state", world.stateText()}};
     writeText("-", json.dump() + '\n');
 }

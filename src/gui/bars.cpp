@@ -82,7 +82,7 @@ void drawStatusBar(Ui& ui) {
         ImGui::AlignTextToFramePadding();
         const std::string rate = ui.frames_per_second > 0 ? fmt::format("{:.0f} frames/s", ui.frames_per_second) : "at rest";
         ImGui::Text("%s   |   %s   |   %s", motionText(ui).c_str(), rate.c_str(), pictureText(ui.picture).c_str());
-        const char* hint = "Left drag: turn   Wheel: nearer   Right click: attributes   Space: play   F1: controls";
+        const char* hint = "Left drag: turn   Shift + drag: hold   Wheel: nearer   Right click: attributes   Space: play   F1: controls";
         const float room = ImGui::CalcTextSize(hint).x + 16;
         ImGui::SameLine();
         if (ImGui::GetCursorPosX() + room < screen.x) {

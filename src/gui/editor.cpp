@@ -1,6 +1,5 @@
 #include "gui/editor.h"
 
-#include "core/scene/camera.h"
 #include "core/scene/keys.h"
 #include "core/scene/text.h"
 #include "core/sdf/raycast.h"
@@ -274,16 +273,9 @@ void Editor::keepView() {
 void Editor::resetView() { orbit_ = Orbit::around(defaultCamera(scene_)), ++revision_; }
 
 ObjectId Editor::pick(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn) {
-    if (picture.x < 1 || picture.y < 1) return {};
-    const Camera eye = camera();
-    const Ray ray = cameraRay(eye, picture, point);
-    const Tree tree = makeTree(scene_);
-    const double far = scene_.render.max_distance;
-    const RayEnd end = drawn && drawn->follows(tree) ? raycast(*drawn, ray.origin, ray.direction, far) : raycast(tree, ray.origin, ray.direction, far);
-    // A ray that is not decided may have passed within a pixel of a surface: near enough for a click.
-    const double pixel = 2 * viewOf(eye).half / picture.y * (eye.ortho > 0 ? 1 : end.t);
-    if (end.state == RayState::miss || end.leaf < 0 || (end.state == RayState::undecided && end.closest > pixel)) return {};
-    const ObjectId whole = scene_.objects[topLevel(scene_, end.index)].id, part = scene_.objects[end.index].id;
+    const std::optional<SeenAt> seen = seenAt(picture, point, drawn);
+    if (!seen) return {};
+    const ObjectId whole = scene_.objects[topLevel(scene_, seen->index)].id, part = scene_.objects[seen->index].id;
     const std::optional<std::size_t> now = selection();
     selected_ = now && scene_.objects[topLevel(scene_, *now)].id == whole ? part : whole;
     return selected_;

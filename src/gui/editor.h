@@ -100,6 +100,20 @@ public:
     /// it if that is selected already. Null where nothing is. A grid that the picture was drawn through saves asking every object.
     ObjectId pick(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn = nullptr);
 
+    // The hand in the picture (editor_hand.cpp); points as in pick().
+    /// Takes hold of the body seen at a point of the picture, by that point, and plays. Says whether there is one.
+    bool grab(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn = nullptr);
+    /// Moves what is held to another point of the picture, at the distance it was taken hold of.
+    void drag(glm::ivec2 picture, glm::dvec2 point);
+    void letGo() { simulation_.letGo(); }
+    /// The place that is held and the place of the hand.
+    struct Held {
+        glm::dvec3 place, hand;
+    };
+    std::optional<Held> held() const;
+    /// Blows up at what is seen at a point of the picture, as far as half the way to the eye, and plays.
+    bool explode(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn = nullptr);
+
     // Time (editor_motion.cpp).
     const Simulation& simulation() const { return simulation_; }
     bool playing() const { return simulation_.playing; }
@@ -140,6 +154,12 @@ private:
     enum class Change { looks, statics, bodies };
     void edited(Change change);
     Change changeOf(std::size_t index) const;
+    /// What is seen at a point of the picture: where, and the object's index.
+    struct SeenAt {
+        glm::dvec3 place;
+        std::size_t index;
+    };
+    std::optional<SeenAt> seenAt(glm::ivec2 picture, glm::dvec2 point, const Grid* drawn) const;
     bool refuse(std::string why);
     std::string whyInvalid(Object object) const;
     void insertObject(Object object, int parent);
@@ -159,6 +179,7 @@ private:
     ObjectId selected_;
     Orbit orbit_;
     Simulation simulation_;
+    double hand_ahead_ = 0;  // m, of the eye: the plane in which the hand moves
     std::optional<std::vector<Object>> before_;  // the objects as they were before the first step
 };
 

@@ -50,7 +50,8 @@ void Editor::removeLight(std::size_t index) {
 }
 
 void Editor::setWorld(const World& values) {
-    const bool felt = std::ranges::any_of(kFelt, [&](auto member) { return scene_.world.*member != values.*member; });
+    if (values.down == glm::dvec3{0}) return say(true, "'down' has no length, expected a direction");
+    const bool felt = !feelsAlike(scene_.world, values);
     scene_.world = values, edited(felt ? Change::statics : Change::looks);
 }
 void Editor::setRender(const RenderKnobs& values) { scene_.render = values, edited(Change::looks); }

@@ -11,25 +11,20 @@ namespace {
 
 constexpr double kTurn = 0.008;  // rad a pixel
 
-bool overPicture(const Ui& ui, ImVec2 at) {
-    const ImVec2 corner = ui.picture_corner, size = ui.picture_size;
-    return at.x >= corner.x && at.y >= corner.y && at.x < corner.x + size.x && at.y < corner.y + size.y;
-}
-
 void handleMouse(Ui& ui) {
     const ImGuiIO& io = ImGui::GetIO();
+    const bool holds = handleHand(ui);
     if (io.WantCaptureMouse || !ImGui::IsMousePosValid()) return;
     const auto began = [&](int b) { return overPicture(ui, io.MouseClickedPos[b]) && ImGui::IsMouseDown(b) && !ImGui::IsMouseClicked(b); };
     const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     const double height = static_cast<double>(ui.picture_size.y) + 1;
     const double dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
-    if (moved && began(ImGuiMouseButton_Left)) ui.editor.turn(-kTurn * dx, kTurn * dy);
+    if (moved && !holds && began(ImGuiMouseButton_Left)) ui.editor.turn(-kTurn * dx, kTurn * dy);
     if (moved && began(ImGuiMouseButton_Middle)) ui.editor.pan(-dx / height, dy / height);
     if (!overPicture(ui, io.MousePos)) return;
     if (io.MouseWheel != 0) ui.editor.zoom(static_cast<double>(io.MouseWheel));
     if (!ImGui::IsMouseClicked(ImGuiMouseButton_Right)) return;
-    const glm::dvec2 at{io.MousePos.x - ui.picture_corner.x, io.MousePos.y - ui.picture_corner.y};
-    if (ui.editor.pick({static_cast<int>(ui.picture_size.x), static_cast<int>(ui.picture_size.y)}, at + 0.5, ui.picture.grid))
+    if (ui.editor.pick(pictureSize(ui), inPicture(ui, io.MousePos), ui.picture.grid))
         ui.show("Attributes"), ui.attributes_to_top = true;
     else
         ui.editor.select({});

@@ -53,6 +53,10 @@ const Entry kEntries[] = {
      .run = [](Ui& ui) { ui.editor.reset(); }, .enabled = canReset},
     {.menu = "Motion", .name = "Throw about", .shortcut = {GLFW_KEY_J, false, "J"}, .tip = "gives every body a push",
      .run = [](Ui& ui) { ui.editor.throwAbout(); }},
+    {.menu = "Motion", .name = "Explode", .shortcut = {GLFW_KEY_X, false, "X"},
+     .tip = "blows the bodies away from what is under the mouse; else from the middle of the picture", .run = explodeThere},
+    {.menu = "Motion", .name = "Meters", .shortcut = {GLFW_KEY_F5, false, "F5"}, .tip = "energy, momentum, overlap and contacts, now and over the last steps",
+     .draw = drawMeters, .width = 420},
     {.menu = "Motion", .name = "Timeline", .shortcut = {GLFW_KEY_F4, false, "F4"}, .tip = "back and forth through all steps made",
      .draw = drawTimeline, .place = Place::below_picture, .height = 88},
     {.menu = "Motion", .name = "Save recording", .tip = "the run so far, to be made again and compared step by step", .draw = drawSaveRecording,
@@ -62,7 +66,7 @@ const Entry kEntries[] = {
     {.menu = "Settings", .name = "Controls", .shortcut = {GLFW_KEY_F1, false, "F1"}, .tip = "what the mouse and the keys do",
      .draw = drawControls, .width = 430},
     {.menu = "Settings", .name = "Debug", .tip = "the live state of every body", .draw = drawDebug, .width = 740, .height = 320},
-    {.menu = "Settings", .name = "Constants", .tip = "gravity, restitution, friction, and the steps of time", .draw = drawConstants},
+    {.menu = "Settings", .name = "Constants", .tip = "gravity and where it points, restitution, friction, and the steps of time", .draw = drawConstants},
     {.menu = "Settings", .name = "Picture", .tip = "the picture's quality, and what the scene calls for", .draw = drawPicture, .width = 420},
     {.menu = "Settings", .name = "Effects", .shortcut = {GLFW_KEY_F2, false, "F2"}, .tip = "what the scene calls for, by which records, and what it costs",
      .draw = drawEffects, .width = 760, .height = 520},
@@ -72,6 +76,7 @@ const Entry kEntries[] = {
 
 constexpr MouseControl kMouse[] = {
     {"Left drag", "turns the view around the scene"},
+    {"Shift + left drag on a body", "holds it by a spring, and plays; letting go throws it"},
     {"Middle drag", "moves the view sideways"},
     {"Wheel", "comes nearer or goes further"},
     {"Right click on an object", "opens its attributes; once more: those of the part under the mouse"},
@@ -196,6 +201,7 @@ void Ui::stopMeasuring() {
 void drawInterface(Ui& ui) {
     drawMenuBar(ui);
     layOut(ui);
+    drawHand(ui);
     for (std::size_t i = 0; i < entries().size(); ++i)
         if (ui.open[i] && entries()[i].draw) drawPanel(ui, entries()[i], i);
     if (!ui.isOpen("Effects")) ui.picture.pricing = ui.pricing_motion = false;  // nobody waits for it

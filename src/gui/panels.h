@@ -68,6 +68,16 @@ struct AccuracyMemory {
     std::string picked;                   // what was, in words; empty: the slider was not moved yet
 };
 
+/// What the Meters panel has seen of the run, the newest last.
+struct Meters {
+    static constexpr std::size_t kMost = 240;
+    struct Moment {
+        std::uint64_t step = 0;
+        float energy = 0, kinetic = 0, deepest = 0;  // J, J, m
+    };
+    std::vector<Moment> moments;
+};
+
 /// What a panel of files remembers.
 struct FileChoice {
     std::vector<std::string> files;
@@ -110,6 +120,8 @@ struct Ui {
     bool pricing_motion = false;       // it is not full yet
     std::uint64_t priced_revision = 0; // that both ledgers are of
     AccuracyMemory accuracy;
+    Meters meters;
+    bool holding = false;              // the mouse holds a body
     double message_until = kForever;   // ImGui's time when it goes by itself
     std::string message_shown;
 
@@ -154,6 +166,17 @@ std::span<const MouseControl> mouseControls();
 void drawInterface(Ui& ui);
 /// Hands the keys and the mouse to the editor where Dear ImGui does not want them (input.cpp).
 void handleInput(Ui& ui);
+// The hand in the picture (hand.cpp).
+/// Whether that place on the screen is of the picture; and where in it, in its pixels.
+bool overPicture(const Ui& ui, ImVec2 at);
+glm::dvec2 inPicture(const Ui& ui, ImVec2 at);
+glm::ivec2 pictureSize(const Ui& ui);
+/// Grabs, drags and lets go as the mouse does; says whether the mouse holds a body.
+bool handleHand(Ui& ui);
+/// A line from the place that is held to the hand.
+void drawHand(const Ui& ui);
+/// Blows up what is under the mouse, or in the middle of the picture where the mouse is elsewhere.
+void explodeThere(Ui& ui);
 
 // The panels, one file each or a few.
 void drawObjects(Ui& ui);
@@ -167,6 +190,7 @@ void drawSaveAs(Ui& ui);
 void drawOpenRecording(Ui& ui);
 void drawSaveRecording(Ui& ui);
 void drawTimeline(Ui& ui);
+void drawMeters(Ui& ui);
 void drawControls(Ui& ui);
 void drawDebug(Ui& ui);
 void drawConstants(Ui& ui);

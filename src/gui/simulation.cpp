@@ -16,7 +16,7 @@ void takeShapes(const Scene& from, Scene& io_scene) {
         if (const auto same = now.find(o.id.value); same != now.end()) o.name = same->second->name, o.material = same->second->material;
     io_scene.objects = std::move(objects);
     io_scene.physics = from.physics;
-    for (const auto felt : kFelt) io_scene.world.*felt = from.world.*felt;
+    std::apply([&](auto... felt) { ((io_scene.world.*felt = from.world.*felt), ...); }, kFelt);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ bool Simulation::advance(Scene& scene, double seconds) {
     const auto start = std::chrono::steady_clock::now();
     const auto late = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > kMostSeconds; };
     while (owed_ >= dt && made < kMostSteps && !asleep() && (made == 0 || !late())) {
-        timeline_->advance();
+        makeStep();
         owed_ -= dt, ++made;
     }
     if (asleep()) owed_ = 0;
@@ -70,8 +70,22 @@ bool Simulation::advance(Scene& scene, double seconds) {
 }
 
 void Simulation::step(Scene& scene) {
-    ready(scene).advance();
+    ready(scene);
+    makeStep();
     show(scene);
+}
+
+/// One step, before which the run is told where the hand is. Behind what was recorded nothing is held but by the hand.
+void Simulation::makeStep() {
+    if (timeline_->atEnd()) {
+        std::vector<ObjectId> held_by_none;
+        for (const Grab& g : timeline_->world().grabs()) {
+            if (!hand_ || g.object != hand_->object) held_by_none.push_back(g.object);
+            else if (g.target != hand_->target) timeline_->act(grabbing(hand_->object, hand_->arm, hand_->target));
+        }
+        for (const ObjectId object : held_by_none) timeline_->act(lettingGo(object));
+    }
+    timeline_->advance();
 }
 
 void Simulation::throwAbout(Scene& scene) {
@@ -79,7 +93,38 @@ void Simulation::throwAbout(Scene& scene) {
     show(scene);
 }
 
+void Simulation::explode(Scene& scene, glm::dvec3 at, double radius) {
+    ready(scene).act(exploding(at, kExplodeSpeed, radius));
+    show(scene);
+}
+
+void Simulation::grab(Scene& scene, ObjectId object, glm::dvec3 at) {
+    letGo();
+    const auto bodies = ready(scene).world().bodies();
+    const auto body = std::ranges::find(bodies, object, &Body::object);
+    if (body == bodies.end()) return;
+    hand_ = Grab{object, body->pose().fromWorld(at), at};
+    timeline_->act(grabbing(object, hand_->arm, at));
+    show(scene);
+}
+
+void Simulation::moveHand(glm::dvec3 to) {
+    if (hand_) hand_->target = to;
+}
+
+void Simulation::letGo() {
+    if (hand_ && holds(hand_->object) && timeline_->atEnd()) timeline_->act(lettingGo(hand_->object));
+    hand_.reset();
+}
+
+bool Simulation::holds(ObjectId body) const {
+    return timeline_ && std::ranges::find(timeline_->world().grabs(), body, &Grab::object) != timeline_->world().grabs().end();
+}
+
+std::optional<Grab> Simulation::hand() const { return hand_ && holds(hand_->object) ? hand_ : std::nullopt; }
+
 void Simulation::seek(Scene& scene, std::uint64_t step) {
+    letGo();
     ready(scene).aim(step);
     if (seeking()) timeline_->arrive(kMostSeconds);
     show(scene);
@@ -91,7 +136,8 @@ void Simulation::discardFuture() {
 }
 
 bool Simulation::hasBody(ObjectId object) const {
-    return timeline_ && std::ranges::any_of(timeline_->world().bodies(), [&](const Body& b) { return b.object == object; });
+    const auto among = [&](std::span<const Body> bodies) { return std::ranges::find(bodies, object, &Body::object) != bodies.end(); };
+    return timeline_ && (among(timeline_->world().bodies()) || among(timeline_->world().frozen()));
 }
 
 void Simulation::remove(ObjectId body) {

@@ -4,11 +4,15 @@
 #include "physics/timeline.h"
 
 #include <optional>
+#include <tuple>
 
 namespace mb {
 
 /// What of the world its bodies feel; the rest is looks.
-inline constexpr double World::* kFelt[] = {&World::gravity, &World::restitution, &World::friction, &World::bounds};
+inline constexpr std::tuple kFelt{&World::gravity, &World::down, &World::restitution, &World::friction, &World::rolling, &World::spinning, &World::bounds};
+inline bool feelsAlike(const World& a, const World& b) {
+    return std::apply([&](auto... felt) { return ((a.*felt == b.*felt) && ...); }, kFelt);
+}
 
 class Simulation {
 public:
@@ -16,6 +20,7 @@ public:
     static constexpr double kMostSeconds = 0.04;  // of wall time at one call, after the first step
 
     static constexpr double kThrowSpeed = 6;       // m/s
+    static constexpr double kExplodeSpeed = 8;     // m/s, at its middle
 
     bool playing = false;
     std::uint64_t throws = 1;                     // the next throw's seed: the same session throws the same way
@@ -26,6 +31,13 @@ public:
     /// Makes one step.
     void step(Scene& scene);
     void throwAbout(Scene& scene);
+    void explode(Scene& scene, glm::dvec3 at, double radius);
+    /// Takes hold of a body at a place on it. The hand may then be moved, which each step takes note of, until it lets go.
+    void grab(Scene& scene, ObjectId body, glm::dvec3 at);
+    void moveHand(glm::dvec3 to);
+    void letGo();
+    /// The hand, while the run has its body; its target is where the hand is now.
+    std::optional<Grab> hand() const;
     /// Goes to a moment, or as near to it as there is time for: advance() does the rest.
     void seek(Scene& scene, std::uint64_t step);
     bool seeking() const { return timeline_ && timeline_->target(); }
@@ -58,11 +70,14 @@ public:
 
 private:
     void show(Scene& scene);
+    void makeStep();
+    bool holds(ObjectId body) const;
 
     std::optional<Timeline> timeline_;
     std::shared_ptr<const Scene> shown_;          // the timeline's scene whose shapes are in the editor's, and when
     std::uint64_t shown_step_ = 0;
     std::uint64_t loaded_ = 0;                    // steps of a recording that are not all compared yet
+    std::optional<Grab> hand_;
     bool changed_ = false, told_ = false, took_shapes_ = false;
     double owed_ = 0, ratio_ = 1;
 };

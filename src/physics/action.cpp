@@ -8,6 +8,9 @@ namespace {
 
 constexpr Argument kThrow[] = {{"seed", &Action::seed}, {"speed", &Action::speed}};
 constexpr Argument kMotion[] = {{"body", &Action::body}, {"vel", &Action::vel}, {"spin", &Action::spin}};
+constexpr Argument kGrab[] = {{"body", &Action::body}, {"arm", &Action::arm}, {"target", &Action::target}};
+constexpr Argument kLetGo[] = {{"body", &Action::body}};
+constexpr Argument kExplode[] = {{"at", &Action::at}, {"speed", &Action::speed}, {"radius", &Action::radius, 0}};
 constexpr Argument kRemove[] = {{"body", &Action::body}};
 
 void setMotion(PhysicsWorld& world, const Action& a) {
@@ -18,6 +21,9 @@ void setMotion(PhysicsWorld& world, const Action& a) {
 constexpr ActionKind kKinds[] = {
     {"throw", kThrow, [](PhysicsWorld& world, const Action& a) { world.throwAbout(a.seed, a.speed); }},
     {"motion", kMotion, setMotion},
+    {"grab", kGrab, [](PhysicsWorld& world, const Action& a) { world.grab(a.body, a.arm, a.target); }},
+    {"let_go", kLetGo, [](PhysicsWorld& world, const Action& a) { world.letGo(a.body); }},
+    {"explode", kExplode, [](PhysicsWorld& world, const Action& a) { world.explode(a.at, a.speed, a.radius); }},
     {"remove", kRemove, [](PhysicsWorld& world, const Action& a) { world.remove(a.body); }},
     {"statics", {}, [](PhysicsWorld& world, const Action& a) { world.changeStatics(*a.scene); }, true},
 };
@@ -41,6 +47,24 @@ Action throwing(std::uint64_t seed, double speed) {
 Action settingMotion(ObjectId body, glm::dvec3 vel, glm::dvec3 spin) {
     Action action = ofKind("motion");
     action.body = body, action.vel = vel, action.spin = spin;
+    return action;
+}
+
+Action grabbing(ObjectId body, glm::dvec3 arm, glm::dvec3 target) {
+    Action action = ofKind("grab");
+    action.body = body, action.arm = arm, action.target = target;
+    return action;
+}
+
+Action lettingGo(ObjectId body) {
+    Action action = ofKind("let_go");
+    action.body = body;
+    return action;
+}
+
+Action exploding(glm::dvec3 at, double speed, double radius) {
+    Action action = ofKind("explode");
+    action.at = at, action.speed = speed, action.radius = radius;
     return action;
 }
 

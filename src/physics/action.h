@@ -17,8 +17,9 @@ struct Action {
     std::uint64_t step = 0;              // it is done after so many steps, before the next
     ObjectId body;
     std::uint64_t seed = 0;
-    double speed = 0;                    // m/s
+    double speed = 0, radius = 0;        // m/s, m
     glm::dvec3 vel{0}, spin{0};          // m/s, rad/s
+    glm::dvec3 at{0}, arm{0}, target{0}; // m
     std::shared_ptr<const Scene> scene;  // with the ids its objects have in the world
 };
 
@@ -42,6 +43,9 @@ std::span<const ActionKind> actionKinds();
 Action throwing(std::uint64_t seed, double speed);
 Action settingMotion(ObjectId body, glm::dvec3 vel, glm::dvec3 spin);
 Action removing(ObjectId body);
+Action grabbing(ObjectId body, glm::dvec3 arm, glm::dvec3 target);
+Action lettingGo(ObjectId body);
+Action exploding(glm::dvec3 at, double speed, double radius);
 Action changingStatics(Scene scene);
 
 }  // namespace mb

@@ -10,6 +10,21 @@ glm::dmat3 Body::worldInverseInertia() const {
     return r * inverse_inertia * glm::transpose(r);
 }
 
+Pairing pairing(const World& world, const Body& a) {
+    return {a.restitution.value_or(world.restitution), a.friction.value_or(world.friction), a.rolling.value_or(world.rolling),
+            a.spinning.value_or(world.spinning)};
+}
+
+Pairing pairing(const World& world, const Body& a, const Body& b) {
+    const auto both = [](const std::optional<double>& x, const std::optional<double>& y, double of_world, auto join) {
+        return x && y ? join(*x, *y) : x.value_or(y.value_or(of_world));
+    };
+    const auto greater = [](double x, double y) { return std::max(x, y); };
+    const auto mean = [](double x, double y) { return std::sqrt(x * y); };
+    return {both(a.restitution, b.restitution, world.restitution, greater), both(a.friction, b.friction, world.friction, mean),
+            both(a.rolling, b.rolling, world.rolling, mean), both(a.spinning, b.spinning, world.spinning, mean)};
+}
+
 glm::dvec3 angularMomentum(const Body& body, glm::dvec3 spin) {
     if (body.isBall()) return body.inertia[0][0] * spin;
     const glm::dmat3 r = glm::mat3_cast(body.orientation);

@@ -20,7 +20,7 @@ struct Body {
     double inverse_mass = 0;             // 1/kg
     glm::dmat3 inertia{0};               // kg·m², about the centre of mass, in the body's frame
     glm::dmat3 inverse_inertia{0};
-    std::optional<double> restitution, friction;  // its own; none: the world's
+    std::optional<double> restitution, friction, rolling, spinning;  // its own; none: the world's
     glm::dvec3 offset{0};                // of the centre of mass from the object's origin, in the object's frame, m
     glm::dquat placed{1, 0, 0, 0};       // the orientation the scene gave it
     bool awake = true;
@@ -48,21 +48,13 @@ double kineticEnergy(const Body& body, const Motion& motion);
 /// What two surfaces do to one another.
 struct Pairing {
     double restitution = 0, friction = 0;
+    double rolling = 0, spinning = 0;    // m
 };
 /// A body against a static shape: the body's own values, else the world's.
-inline Pairing pairing(const World& world, const Body& a) {
-    return {a.restitution.value_or(world.restitution), a.friction.value_or(world.friction)};
-}
-/// Two bodies: where only one states a value, it counts; where both do, the greater restitution and the geometric mean
-/// of the frictions; where neither does, the world's.
-inline Pairing pairing(const World& world, const Body& a, const Body& b) {
-    const Pairing pa = pairing(world, a), pb = pairing(world, b);
-    Pairing p{std::max(pa.restitution, pb.restitution), std::sqrt(pa.friction * pb.friction)};
-    if (a.restitution.has_value() != b.restitution.has_value()) p.restitution = (a.restitution ? pa : pb).restitution;
-    if (a.friction.has_value() != b.friction.has_value()) p.friction = (a.friction ? pa : pb).friction;
-    if (!a.friction && !b.friction) p.friction = world.friction;
-    return p;
-}
+Pairing pairing(const World& world, const Body& a);
+/// Two bodies: where only one states a value, it counts; where both do, the greater restitution and the geometric mean of the
+/// others; where neither does, the world's.
+Pairing pairing(const World& world, const Body& a, const Body& b);
 
 /// Turns an orientation by spin·time, with +, ·, ÷ and √ only, so that every compiler's result is the same to the bit.
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double time);

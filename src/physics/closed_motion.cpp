@@ -58,23 +58,23 @@ void bounce(Flying& io_f, double radius, Pairing p) {
 }
 
 /// One ball at each moment; nothing where it comes to rest, or starts on or in the plane.
-std::optional<std::vector<Flying>> pathOf(const Body& body, double level, const World& world, double seconds, double every_s) {
+std::optional<std::vector<Flying>> pathOf(const Body& body, double level, const World& world, double g, double seconds, double every_s) {
     const double height = level + body.radius, slowest = 0.3;
     if (body.position.y <= height + 1e-6) return std::nullopt;
     Flying f{body.position, body.velocity, body.spin, 0};
     std::vector<Flying> path;
     const auto moments = static_cast<std::size_t>(std::llround(seconds / every_s)) + 1;
-    double impact = meets(f, height, world.gravity);
+    double impact = meets(f, height, g);
     for (std::size_t m = 0; m < moments; ++m) {
         const double t = static_cast<double>(m) * every_s;
         while (impact <= t) {
-            f = f.at(impact, world.gravity);
+            f = f.at(impact, g);
             f.place.y = height;
             bounce(f, body.radius, pairing(world, body));
             if (f.velocity.y < slowest) return std::nullopt;
-            impact = meets(f, height, world.gravity);
+            impact = meets(f, height, g);
         }
-        path.push_back(f.at(t, world.gravity));
+        path.push_back(f.at(t, g));
     }
     return path;
 }
@@ -93,14 +93,15 @@ bool meetEachOther(std::span<const Body> bodies, const std::vector<std::vector<F
 std::optional<Track> closedTrack(const Scene& scene, double seconds, double every_s) {
     const std::optional<double> level = levelOf(scene);
     const PhysicsWorld world(scene);
-    const double g = scene.world.gravity;
-    if (!level || world.bodies().empty() || g < 0) return std::nullopt;
+    const glm::dvec3 fall = scene.world.fall();
+    const double g = -fall.y;
+    if (!level || world.bodies().empty() || g < 0 || fall.x != 0 || fall.z != 0) return std::nullopt;
     Track track;
     track.every_s = every_s;
     std::vector<std::vector<Flying>> paths;
     double top = 0;  // m/s: faster is nothing in the time
     for (const Body& b : world.bodies()) {
-        std::optional<std::vector<Flying>> path = pathOf(b, *level, scene.world, seconds, every_s);
+        std::optional<std::vector<Flying>> path = pathOf(b, *level, scene.world, g, seconds, every_s);
         if (!path) return std::nullopt;
         track.bodies.push_back(b.object);
         top = std::max(top, glm::length(b.velocity) + g * seconds);

@@ -25,7 +25,7 @@ Scene alone(const Scene& scene, std::size_t object) {
     Object& o = one.objects[0];
     o.pos = o.rot = o.vel = o.spin = glm::dvec3{0};
     o.mass = o.density = 0;
-    o.restitution = o.friction = {};
+    o.restitution = o.friction = o.rolling = o.spinning = {};
     return one;
 }
 
@@ -111,7 +111,7 @@ void PhysicsWorld::addBody(const Scene& scene, std::size_t object, std::vector<M
     b.spin = o.spin + glm::dvec3{0};  // −0 becomes 0, as it would where spin is summed
     b.radius = m.radius, b.inner = m.solid ? m.solid->inner : m.radius;
     b.inverse_mass = 1 / m.mass, b.inertia = m.inertia, b.inverse_inertia = glm::inverse(m.inertia);
-    b.restitution = o.restitution, b.friction = o.friction;
+    b.restitution = o.restitution, b.friction = o.friction, b.rolling = o.rolling, b.spinning = o.spinning;
     bodies_.push_back(std::move(b));
     near_.emplace_back();
 }
@@ -123,7 +123,8 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
     const StaticField field_before = std::exchange(field_, {});
     const auto is_solid = [&](std::size_t i) {
         const ObjectId id = scene.objects[i].id;
-        return std::ranges::none_of(bodies_, [&](const Body& b) { return b.object == id; }) && std::ranges::find(gone_, id) == gone_.end();
+        return std::ranges::find(bodies_, id, &Body::object) == bodies_.end() && std::ranges::find(frozen_, id, &Body::object) == frozen_.end() &&
+               std::ranges::find(gone_, id) == gone_.end();
     };
     countShapes();
     if (!bodies_.empty()) field_ = StaticField(scene, is_solid, notes, &field_before, !allBalls());  // else nobody would ask it
@@ -148,24 +149,27 @@ void PhysicsWorld::compose() {
         Object& o = scene.objects[i];
         o.type = findShapeType(b.isBall() ? "sphere" : "box");  // for any shape
         o.mass = b.mass(), o.spin = b.spin, o.restitution = b.restitution, o.friction = b.friction;
+        o.rolling = b.rolling, o.spinning = b.spinning;
     }
     countShapes();
     stages_ = choice_.from(calledFor(scene));
     // What sleeps, or is about to, must be able to wake.
     const bool still = std::ranges::any_of(bodies_, [](const Body& b) { return !b.awake || b.still > 0; });
     if (still) stages_ = choice_.from(stages_ | Stages{Stage::sleeping});
+    if (!grabs_.empty()) stages_ = choice_.from(stages_ | Stages{Stage::spin});  // a hand may turn what it holds
 }
 
 void PhysicsWorld::writeTo(Scene& scene) const {
-    for (const Body& b : bodies_) {
+    const auto write = [&](const Body& b) {
         const auto found = findObject(scene, b.object);
-        if (!found) continue;
+        if (!found) return;
         Object& o = scene.objects[*found];
         const bool turned_at_all = b.orientation != b.placed;
         if (turned_at_all) o.rot = degreesFromRotation(glm::mat3_cast(b.orientation));
         o.pos = b.offset == glm::dvec3{0} ? b.position : b.position - b.orientation * b.offset;
         o.vel = b.velocity, o.spin = b.spin;
-    }
+    };
+    std::ranges::for_each(bodies_, write), std::ranges::for_each(frozen_, write);
     for (const ObjectId id : gone_)
         if (const auto found = findObject(scene, id)) removeSubtree(scene, *found);
 }

@@ -146,7 +146,7 @@ void Flight::meet(const Event& event) {
         if (i == kStatic) continue;
         const auto k = static_cast<std::size_t>(i);
         paths_[k].turning = {};
-        if (fast) paths_[k].acceleration = {0, -rules_.world.gravity, 0};
+        if (fast) paths_[k].acceleration = rules_.world.fall();
         if (waits || contacts.empty() || paths_[k].events > kEventsAPart) hold(k);
     }
     support(contacts);

@@ -47,7 +47,7 @@ double restitutionError(const World& world, const PhysicsKnobs& knobs) {
     constexpr double kDrop = 1, kRadius = 0.1;  // m
     Scene probe;
     probe.world = world, probe.physics = knobs;
-    probe.world.bounds = 1e6;
+    probe.world.bounds = 1e6, probe.world.down = World{}.down;
     Object floor, ball;
     floor.type = findShapeType("plane"), floor.numbers = initialNumbers(*floor.type), floor.id = probe.newId();
     ball.type = findShapeType("sphere"), ball.numbers = initialNumbers(*ball.type), ball.id = probe.newId();

@@ -6,6 +6,7 @@
 // (Hairer, Lubich, Wanner, "Geometric Numerical Integration", 2006, section IV.1). With the normal at the start instead, a
 // ball in a bowl would gain energy at every part.
 #include "core/effects/effect.h"
+#include "physics/rolling.h"
 #include "physics/world.h"
 
 #include <glm/geometric.hpp>
@@ -129,7 +130,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
 /// What the velocities after the part shall be: in mean no approach beyond the gap there is. For a ball's friction no slip, unless
 /// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
 void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
-    const glm::dvec3 fall{0, -world_.gravity * h, 0};
+    const glm::dvec3 fall = world_.fall() * h;
     for (Contact& c : contacts) {
         const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
         const double away = glm::dot(v, c.normal);
@@ -231,7 +232,7 @@ void PhysicsWorld::findKept() {
 std::vector<Motion> PhysicsWorld::falling() const {
     std::vector<Motion> accelerations(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) accelerations[i].velocity = {0, -world_.gravity, 0};
+        if (bodies_[i].awake) accelerations[i].velocity = world_.fall();
     return accelerations;
 }
 
@@ -243,13 +244,13 @@ std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, doub
     takeKept(midway);
     std::vector<Motion> after(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) after[i] = {bodies_[i].velocity + glm::dvec3{0, -world_.gravity * h, 0}, bodies_[i].spin};
+        if (bodies_[i].awake) after[i] = {bodies_[i].velocity + world_.fall() * h, bodies_[i].spin};
     std::vector<char> carried(bodies_.size(), 0);
     for (const Contact& c : midway) {
         carried[at(c.a)] = 1;
         if (c.b != kStatic) carried[at(c.b)] = 1;
     }
-    solve(bodies_, midway, after, knobs_.iterations, stages_, counts_);
+    solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (!bodies_[i].awake || !carried[i]) continue;
         io_accelerations[i] = {(after[i].velocity - bodies_[i].velocity) / h, (after[i].spin - bodies_[i].spin) / h};

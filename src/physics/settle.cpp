@@ -54,7 +54,7 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
         c.target = -std::max(c.gap, 0.0) / h;
         takeKept(c, true, s.taken);
     }
-    for (const int i : s.balls) s.motion[at(i)].set({bodies_[at(i)].velocity + glm::dvec3{0, -world_.gravity * h, 0}, bodies_[at(i)].spin});
+    for (const int i : s.balls) s.motion[at(i)].set({bodies_[at(i)].velocity + world_.fall() * h, bodies_[at(i)].spin});
     s.crowd.aim(contacts);
     const int rounds = s.crowd.solve(s.motion, roundsFor(island.size(), knobs_.iterations), has(Stage::friction));
     s.crowd.finish(contacts);

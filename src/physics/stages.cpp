@@ -23,6 +23,7 @@ constexpr std::array kCounters{
     Counter{"searches", &StepCounts::searches, Stage::continuous},
     Counter{"rounds", &StepCounts::rounds, Stage::count},
     Counter{"islands", &StepCounts::islands, Stage::sleeping},
+    Counter{"torques", &StepCounts::torques, Stage::rolling},
 };
 
 }  // namespace

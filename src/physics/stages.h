@@ -62,6 +62,7 @@ struct StepCounts {
     std::uint64_t searches = 0;         // for an impact along a path
     std::uint64_t rounds = 0;           // of the solver
     std::uint64_t islands = 0;          // passes that wake and put to sleep
+    std::uint64_t torques = 0;          // turns of a contact's torque against rolling and spinning
 
     /// How often the stage did its work.
     std::uint64_t used(Stage stage) const;

@@ -20,7 +20,7 @@ std::size_t bytesOf(const Scene& scene) {
 /// Of a copy, but for the static shapes: bodies with what they keep in mind.
 std::size_t bytesOf(const PhysicsWorld& world) {
     constexpr std::size_t kBody = sizeof(Body) + sizeof(NearStatics) + kTouches * sizeof(Touch);
-    return sizeof(PhysicsWorld) + world.bodies().size() * kBody;
+    return sizeof(PhysicsWorld) + (world.bodies().size() + world.frozen().size()) * kBody;
 }
 std::size_t bytesOf(const Tree& tree) {
     return tree.leaves.size() * (sizeof(Leaf) + 1) + tree.branches.size() * sizeof(Branch) + tree.program.size() * sizeof(Instruction);

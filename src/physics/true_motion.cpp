@@ -44,7 +44,7 @@ void Tracker::note(double share) {
     eachBody([&](std::size_t i, const Body& b) { places[i] = share == 1 ? b.position : last_[i] + share * (b.position - last_[i]); });
     track_.places.push_back(std::move(places));
     track_.energy.push_back(energy_.total()), track_.kinetic.push_back(energy_.kinetic);
-    track_.lost = world_.removed();
+    track_.lost = world_.removed() + static_cast<int>(world_.frozen().size());
     track_.visits = visitsOf(world_.counts());
 }
 

@@ -13,7 +13,7 @@ struct Track {
     std::vector<std::vector<glm::dvec3>> places;     // [moment][body], of its centre; NaN once it is gone
     std::vector<double> energy, kinetic;             // J, at each moment
     double deepest = 0;                              // m: overlap after any step
-    int lost = 0;                                    // bodies that are gone at the end
+    int lost = 0;                                    // bodies that are gone or frozen at the end
     std::uint64_t visits = 0;                        // see Cost::visits
 };
 
@@ -38,7 +38,7 @@ private:
     std::vector<glm::dvec3> last_;                   // the places before the step
 };
 
-/// The same by closed form, or nothing: where no body meets another, and none meets anything but one level plane. Each flight is a
+/// The same by closed form, or nothing: where no body meets another, and none meets anything but one level plane, and `down` is -y. Each flight is a
 /// parabola, each impact Newton's with Coulomb's friction (a solid ball's; Brogliato, "Nonsmooth Mechanics", 1999). Nothing
 /// either where a ball comes to rest within the time.
 std::optional<Track> closedTrack(const Scene& scene, double seconds, double every_s);

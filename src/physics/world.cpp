@@ -3,7 +3,6 @@
 #include "core/effects/effect.h"
 #include "physics/hash.h"
 #include "physics/quick_hash.h"
-#include "physics/random.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -14,6 +13,7 @@ namespace mb {
 namespace {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dquat& q) { return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z); }
 
 /// Shortens a vector to at most `most`; says whether it was longer.
 bool shorten(glm::dvec3& io_v, double most) {
@@ -53,12 +53,15 @@ void PhysicsWorld::part(double h) {
         contacts_ = 0;
         return;
     }
+    if (!grabs_.empty()) pullGrabbed(h);
     tame();
+    const std::vector<Place> before = places();
     const std::span<Contact> contacts = touching(h);
     const Islands islands(bodies_.size(), contacts);
     if (has(Stage::sleeping)) wakeAndSleep(islands);
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
     if (has(Stage::flight)) fly(accelerations, h);
+    freezeBroken(before);
     pairs_.pass(h);
     if (has(Stage::sleeping)) countStill(contacts, h);
     removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
@@ -73,10 +76,10 @@ std::vector<Motion> PhysicsWorld::rest(std::span<Contact> contacts, const Island
     const std::vector<std::uint32_t> order = islands.sorted(contacts);
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         const int island = islands.of(contacts[order[begin]]);
-        bool balls = true, pairs = false;
+        bool balls = true, pairs = false;  // what resists rolling is no crowd
         for (; end < order.size() && islands.of(contacts[order[end]]) == island; ++end) {
             Contact& c = contacts[order[end]];
-            balls = balls && betweenBalls(bodies_, c), pairs = pairs || c.b != kStatic;
+            balls = balls && betweenBalls(bodies_, c) && c.pairing.rolling == 0 && c.pairing.spinning == 0, pairs = pairs || c.b != kStatic;
             c.island = island;
         }
         if (!bodies_[static_cast<std::size_t>(island)].awake) continue;
@@ -116,30 +119,51 @@ void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     held_ += static_cast<std::uint64_t>(flight.held);
 }
 
-/// Takes out bodies whose state is no number and slows down those beyond the top speed, before either meets another.
+/// Takes out bodies that are nowhere, freezes those whose motion is no number, and slows down those beyond the top speed, before any
+/// meets another.
 void PhysicsWorld::tame() {
-    const auto broken = [](const Body& b) {
-        return !finite(b.position) || !finite(b.velocity) || !finite(b.spin) || glm::dot(b.position, b.position) > 1e20;
-    };
+    const auto nowhere = [](const Body& b) { return !finite(b.position) || !finite(b.orientation) || glm::dot(b.position, b.position) > 1e20; };
+    for (const Body& b : bodies_)
+        if (nowhere(b)) note(fmt::format("{}: removed at {} s, its place is no number", b.name, time_s()));
+    removeWhere(nowhere);
+    freezeBroken({});  // all are somewhere
     for (Body& b : bodies_) {
-        if (broken(b)) {
-            note(fmt::format("{}: removed at {} s, its state is no number", b.name, time_s()));
-            continue;
-        }
         if (shorten(b.velocity, kTopSpeed)) note(fmt::format("{}: slowed down to {} m/s", b.name, kTopSpeed));
         if (has(Stage::spin) && shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
     }
-    removeWhere(broken);
 }
 
-void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
+std::vector<PhysicsWorld::Place> PhysicsWorld::places() const {
+    std::vector<Place> all;
+    all.reserve(bodies_.size());
+    for (const Body& b : bodies_) all.push_back({b.position, b.orientation});
+    return all;
+}
+
+/// Puts bodies whose state is no number back to where they last were, and aside.
+void PhysicsWorld::freezeBroken(std::span<const Place> last) {
+    const auto broken = [](const Body& b) { return !finite(b.position) || !finite(b.orientation) || !finite(b.velocity) || !finite(b.spin); };
+    if (std::ranges::none_of(bodies_, broken)) return;
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (Body& b = bodies_[i]; !finite(b.position) || !finite(b.orientation))
+            b.position = last[i].position, b.orientation = last[i].orientation, b.velocity.x = NAN;
+    takeOut(broken, [&](Body& b) {
+        note(fmt::format("{}: frozen at {} s where it last was, its state is no number", b.name, time_s()));
+        b.velocity = b.spin = {}, b.awake = false;
+        frozen_.push_back(std::move(b));
+    });
+}
+
+/// Takes bodies out, with what is kept of them.
+void PhysicsWorld::takeOut(const std::function<bool(const Body&)>& wanted, const std::function<void(Body&)>& taken) {
     std::size_t left = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (gone(bodies_[i])) {
-            ++removed_;
-            gone_.push_back(bodies_[i].object);
-            std::erase_if(kept_, [&](const Kept& k) { return k.a == bodies_[i].object.value || k.b == bodies_[i].object.value; });
-            memory_.forget(bodies_[i].object.value);
+        if (wanted(bodies_[i])) {
+            const ObjectId object = bodies_[i].object;
+            std::erase_if(kept_, [&](const Kept& k) { return k.a == object.value || k.b == object.value; });
+            std::erase_if(grabs_, [&](const Grab& g) { return g.object == object; });
+            memory_.forget(object.value);
+            taken(bodies_[i]);
             continue;
         }
         if (left != i) bodies_[left] = std::move(bodies_[i]), near_[left] = std::move(near_[i]);
@@ -152,37 +176,12 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
     compose();
 }
 
+void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
+    takeOut(gone, [&](const Body& b) { ++removed_, gone_.push_back(b.object); });
+}
+
 void PhysicsWorld::note(std::string text) {
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
-}
-
-void PhysicsWorld::setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin) {
-    io_body.velocity = velocity, io_body.spin = spin + glm::dvec3{0};
-    io_body.awake = true, io_body.still = 0;
-}
-
-void PhysicsWorld::setMotion(std::size_t body, glm::dvec3 velocity, glm::dvec3 spin) {
-    setMotionOf(bodies_[body], velocity, spin);
-    compose();
-}
-
-void PhysicsWorld::throwAbout(std::uint64_t seed, double speed) {
-    Random random(seed);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const double x = random.in(-0.5, 0.5), y = random.in(0.2, 0.7), z = random.in(-0.5, 0.5);
-        const glm::dvec3 spin{random.in(-10, 10), random.in(-10, 10), random.in(-10, 10)};
-        setMotionOf(bodies_[i], speed * glm::dvec3{x, y, z}, spin);
-    }
-    compose();
-}
-
-void PhysicsWorld::remove(ObjectId object) {
-    const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == object; });
-    if (found == bodies_.end()) return;
-    for (Body& b : bodies_)
-        if (glm::length(b.position - found->position) <= (b.radius + found->radius) * 1.01) b.awake = true, b.still = 0;
-    removeWhere([&](const Body& b) { return b.object == object; });
-    --removed_;  // it was taken, not lost
 }
 
 int PhysicsWorld::awake() const {
@@ -193,7 +192,7 @@ Energy PhysicsWorld::energy() const {
     Energy e;
     for (const Body& b : bodies_) {
         e.kinetic += kineticEnergy(b, motionOf(b));
-        e.potential += world_.gravity * b.position.y / b.inverse_mass;
+        e.potential -= glm::dot(world_.fall(), b.position) / b.inverse_mass;
     }
     return e;
 }
@@ -236,6 +235,8 @@ std::uint64_t PhysicsWorld::stateHash() const {
     hash.add(knobs_.dt), hash.add(static_cast<std::uint64_t>(knobs_.substeps)), hash.add(static_cast<std::uint64_t>(knobs_.iterations));
     hash.add(knobs_.push_out), hash.add(knobs_.sleep_speed);
     for (const Body& b : bodies_) addState(hash, b);
+    for (const Body& b : frozen_) addState(hash, b);
+    for (const Grab& g : grabs_) hash.add(std::uint64_t{g.object.value}), hash.add(g.arm), hash.add(g.target);
     for (const Kept& k : kept_) {
         hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
         hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag);

@@ -24,8 +24,21 @@ inline constexpr double kStillTime = 0.5;      // s: a ball sleeps that touches 
 inline constexpr double kWeakFall = 0.03;      // m/s: where gravity gives less in a part, what is still is slower in proportion
 
 struct Energy {
-    double kinetic = 0, potential = 0;         // J; potential is 0 at y = 0
+    double kinetic = 0, potential = 0;         // J; potential is 0 at the origin
     double total() const { return kinetic + potential; }
+};
+
+inline constexpr double kGrabRate = 30;        // rad/s: of the spring that holds what is grabbed
+inline constexpr double kGrabPull = 300;       // m/s²: no stronger, times the body's mass
+inline constexpr double kGrabSpeed = 20;       // m/s: the spring wants no faster approach
+
+inline constexpr double kGrabCalm = 4;         // 1/s: at which what is held stops turning
+
+/// A body held by hand.
+struct Grab {
+    ObjectId object;
+    glm::dvec3 arm{0};                         // of the point, from the centre of mass, in the body's frame, m
+    glm::dvec3 target{0};
 };
 
 class PhysicsWorld {
@@ -44,11 +57,13 @@ public:
     std::span<const Body> bodies() const { return bodies_; }
     int awake() const;
     int contacts() const { return contacts_; }                 // that balls rested on in the last part
-    int removed() const { return removed_; }                   // out of bounds, or no longer numbers
+    int removed() const { return removed_; }                   // out of bounds, or nowhere from the start
+    /// Those whose state became no number: they stay where they last were, are met by nothing, and are named in notes().
+    std::span<const Body> frozen() const { return frozen_; }
     std::uint64_t impacts() const { return impacts_; }
     std::uint64_t held() const { return held_; }               // waits for the next part, see flight.h
     std::uint64_t evaluations() const { return field_.evaluations() + before_; }  // of the static field
-    /// What the user should know: shapes that take no part, balls slowed down or removed; each once.
+    /// What the user should know: shapes that take no part, bodies slowed down, frozen or removed; each once.
     std::span<const std::string> notes() const { return notes_; }
 
     Energy energy() const;
@@ -65,11 +80,19 @@ public:
     void setMotion(std::size_t body, glm::dvec3 velocity, glm::dvec3 spin);
     /// Throws every ball about: velocities up to `speed`, upwards more than down, the same for the same seed.
     void throwAbout(std::uint64_t seed, double speed);
+    /// Holds a body's point to a target by a spring, critically damped and no stronger than kGrabPull, until it is let go, and calms
+    /// its turning; done again, moves the target. `arm` is from its centre of mass, in the body's frame. What is held does not sleep.
+    void grab(ObjectId object, glm::dvec3 arm, glm::dvec3 target);
+    void letGo(ObjectId object);
+    std::span<const Grab> grabs() const { return grabs_; }
+    /// Gives every body whose centre of mass is nearer to `at` than `radius` a velocity away from there, and wakes it: `speed` next to
+    /// it, falling linearly to 0 at the radius. What is exactly there goes up. Nothing shields, and nothing is turned.
+    void explode(glm::dvec3 at, double speed, double radius);
     /// Takes the static shapes, the world and the knobs from an edited scene and wakes everything; the balls stay.
     void changeStatics(const Scene& scene);
     /// Takes a ball out and wakes what touched it.
     void remove(ObjectId object);
-    /// Writes pos, rot, vel and spin of each ball into its object; objects of removed balls leave the scene.
+    /// Writes pos, rot, vel and spin of each body into its object; objects of removed bodies leave the scene.
     void writeTo(Scene& scene) const;
 
 private:
@@ -141,7 +164,15 @@ private:
     void findKept();
     void countStill(std::span<const Contact> contacts, double h);
     void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
+    void pullGrabbed(double h);
     void tame();
+    struct Place {
+        glm::dvec3 position;
+        glm::dquat orientation;
+    };
+    std::vector<Place> places() const;
+    void freezeBroken(std::span<const Place> last);
+    void takeOut(const std::function<bool(const Body&)>& wanted, const std::function<void(Body&)>& taken);
     void removeWhere(const std::function<bool(const Body&)>& gone);
     void note(std::string text);
     double bounceSpeed(double h) const;
@@ -152,6 +183,8 @@ private:
     std::vector<Body> bodies_;
     std::vector<NearStatics> near_;                            // of each body; remembered, not state
     PairList pairs_;                                           // remembered, not state
+    std::vector<Body> frozen_;
+    std::vector<Grab> grabs_;
     std::vector<Kept> kept_;
     std::vector<std::uint32_t> kept_begin_;                    // of each body's; one more, the end
     ManifoldMemory memory_;

@@ -229,6 +229,9 @@ TEST_CASE("simulate prints one line of JSON, and a trace whose last row is the e
     // After half a second of free fall: v = g t, and the energy it began with.
     CHECK(json["energy"]["kinetic"].get<double>() == doctest::Approx(0.5 * std::pow(9.81 * 0.5, 2)).epsilon(1e-9));
     CHECK(json["momentum"][1].get<double>() == doctest::Approx(-9.81 * 0.5));
+    CHECK(json["angular_momentum"] == nlohmann::json{0.0, 0.0, 0.0});
+    CHECK(json["frozen"] == 0);
+    CHECK(json["contacts"] == 0);
 
     std::istringstream trace(read(scratch / "t.csv"));
     std::string line, last;
@@ -339,7 +342,7 @@ TEST_CASE("effects says what was called for, by what, and what it costs and show
     CHECK(fog["uses"] == 0);
     CHECK(fog["price"]["largest"] == 0);
     CHECK(json["records"].size() > 3);
-    CHECK(json["stages"].size() == 9);
+    CHECK(json["stages"].size() == 10);
 
     const Ran table = run(scratch, "effects --size 32x18 --rounds 1 " + scene);
     for (const char* text : {"CALLED FOR", "LEFT OUT", "THE PHYSICS", "hard shadow", "restitution", "with everything there is in its program"})

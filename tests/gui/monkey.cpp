@@ -33,14 +33,17 @@ struct Monkey {
         case 0: hands.clickAt(at, 1); break;
         case 1: hands.moveTo(at), hands.wheel(part() * 4 - 2); break;
         case 2: case 3: {
-            hands.moveTo(at), hands.press(0, true);
+            hands.moveTo(at);
+            ImGui::GetIO().KeyShift = below(2) == 0;
+            hands.press(0, true);
             hands.moveTo({at.x + 200 * (part() - 0.5f), at.y + 60 * (part() - 0.5f)});
             hands.press(0, false);
+            ImGui::GetIO().KeyShift = false;
             break;
         }
         case 4: {
             constexpr int kKeys[] = {GLFW_KEY_SPACE, GLFW_KEY_J, GLFW_KEY_R, GLFW_KEY_PERIOD, GLFW_KEY_COMMA, GLFW_KEY_ESCAPE, GLFW_KEY_DELETE, GLFW_KEY_ENTER,
-                                     GLFW_KEY_TAB, GLFW_KEY_BACKSPACE, GLFW_KEY_INSERT, GLFW_KEY_F1};
+                                     GLFW_KEY_TAB, GLFW_KEY_BACKSPACE, GLFW_KEY_INSERT, GLFW_KEY_F1, GLFW_KEY_X};
             hands.key(kKeys[below(std::size(kKeys))]);
             break;
         }
@@ -73,7 +76,7 @@ TEST_CASE("some thousand random events leave a scene that saves and reads back e
     std::filesystem::current_path(folder);
     {
         Hands hands;
-        for (const char* panel : {"Add object", "Materials", "Lights", "Constants", "Picture", "Debug", "Timeline"}) hands.ui.show(panel);
+        for (const char* panel : {"Add object", "Materials", "Lights", "Constants", "Picture", "Debug", "Timeline", "Meters"}) hands.ui.show(panel);
         Monkey monkey{hands, std::mt19937_64{20}};
         for (int i = 0; i < kEvents; ++i) {
             monkey.act();

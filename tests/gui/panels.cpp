@@ -237,6 +237,23 @@ TEST_CASE("Constants: gravity, restitution and friction") {
     CHECK(sceneOf(h).physics.substeps > 4);
 }
 
+TEST_CASE("Constants: gravity may point anywhere, but must point somewhere") {
+    Hands h;
+    h.menu("Settings", "Constants");
+    h.typeInto("Constants", "down.x", "2");
+    CHECK(sceneOf(h).world.down == glm::dvec3{2, -1, 0});
+    h.typeInto("Constants", "down.x", "0"), h.typeInto("Constants", "down.y", "0");
+    CHECK(sceneOf(h).world.down == glm::dvec3{0, -1, 0});
+    CHECK(h.editor.message().error);
+    h.editor.play();
+    h.editor.advance(0.1);
+    const double fallen = sceneOf(h).objects[1].vel.y;
+    h.typeInto("Constants", "down.y", "1");
+    h.editor.advance(0.2);
+    CHECK(fallen < 0);
+    CHECK(sceneOf(h).objects[1].vel.y > fallen);
+}
+
 TEST_CASE("Picture: the knobs, and what the scene calls for") {
     Hands h;
     h.menu("Settings", "Picture");

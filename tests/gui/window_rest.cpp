@@ -1,6 +1,8 @@
 // The real window's frames: none where nothing changes or every body sleeps, and some all the time a program is compiled.
 #include "real_window.h"
 
+#include "core/scene/camera.h"
+
 using namespace mb;
 
 namespace {
@@ -70,4 +72,35 @@ TEST_CASE("in the real window: a material that begins to reflect is compiled beh
     session.running->click("Materials/Kr");
     session.running->click("Materials/Ka");
     CHECK(session.atRest("frames").second == compiling);
+}
+
+TEST_CASE("in the real window: Shift and drag holds a body, which follows the mouse and never rests, and letting go throws it") {
+    if (!canHaveWindow()) return;
+    const Session session;
+    session.atRest("frames");
+    // The picture is what the column and the bars of a window of 1280x800 leave; the ball is half a metre wide in it.
+    const Editor as_opened;
+    const auto ball = pictureOf(as_opened.camera(), {940, 758}, as_opened.scene().objects[1].pos);
+    REQUIRE(ball);
+    const int x = static_cast<int>(ball->x), y = static_cast<int>(ball->y) + 21;
+    Running::xdo(fmt::format("mousemove {} {}", x, y));
+    rest(250);
+    Running::xdo("keydown shift"), rest(100);
+    Running::xdo("mousedown 1"), rest(250);
+    Running::xdo("keyup shift");
+    Running::xdo(fmt::format("mousemove {} {}", x + 100, y - 80));
+    // The line from the body to the mouse is drawn; it gets short.
+    const auto held = session.running->find("picture/held");
+    CHECK(held);
+    rest(2000);
+    const auto later = session.running->find("picture/held");
+    REQUIRE(later);
+    CHECK(std::abs(later->first - (x + 100)) <= 12);
+    CHECK(std::abs(later->second - (y - 80)) <= 12);
+    CHECK(session.running->find("motion") == std::pair(1, 0));
+    Running::xdo(fmt::format("mousemove {} {}", x + 200, y - 80));
+    Running::xdo("mouseup 1");
+    rest(700);
+    CHECK(contents(session.folder / "seen").find("picture/held") == std::string::npos);
+    CHECK(session.running->find("motion") == std::pair(1, 0));  // thrown, it rolls on
 }

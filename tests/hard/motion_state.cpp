@@ -186,24 +186,68 @@ TEST_CASE("case 84: elastic balls in a closed box keep their energy and share it
     MESSAGE(steps, " steps: energy off by ", w.energy().total() / start - 1, " after ", w.impacts(), " impacts, shares by ", uneven, ", held ", w.held());
 }
 
-TEST_CASE("case 85: a body whose velocity is no number is removed at once and named; the others do not notice") {
+TEST_CASE("case 85: a body whose velocity is no number is frozen at once and named; the others do not notice") {
     for (const std::string_view kind : {"ball", "box"}) {
         Scene s = poured(6);
         const std::size_t at = bodyOf(s, kind, {20, 3, 0}, 0.2);
         s.objects[at].name = "broken";
         PhysicsWorld with(s);
-        removeSubtree(s, at);
-        PhysicsWorld without(s);
+        Scene fewer = s;
+        removeSubtree(fewer, at);
+        PhysicsWorld without(fewer);
+        glm::dvec3 last{0};
         for (int i = 0; i < 200; ++i) {
-            if (i == 100) with.setMotion(6, {NAN, 0, 0}, {});
+            const bool broken = i >= 100;
+            if (i == 100) last = with.bodies()[6].position, with.setMotion(6, {NAN, 0, 0}, {});
             with.step(), without.step();
-            CHECK(with.removed() == (i < 100 ? 0 : 1));
+            REQUIRE(with.frozen().size() == (broken ? 1 : 0));
+            const std::uint64_t before = with.stateHash();
+            CHECK(PhysicsWorld(with).stateHash() == before);
         }
+        CHECK(with.removed() == 0);
+        CHECK(with.frozen()[0].position == last);
+        CHECK(with.frozen()[0].velocity == glm::dvec3{0});
+        CHECK(with.stateHash() != without.stateHash());
         REQUIRE(with.notes().size() == 1);
         CHECK(with.notes()[0].find("broken") != std::string::npos);
         REQUIRE(with.bodies().size() == 6);
         for (std::size_t i = 0; i < 6; ++i) CHECK(with.bodyHash(i) == without.bodyHash(i));
+        // It stays in the scene, where it last was, and nothing meets it there: not as what does not move either.
+        Scene after = s;
+        with.writeTo(after);
+        const auto in_scene = std::ranges::find(after.objects, std::string("broken"), &Object::name);
+        REQUIRE(in_scene != after.objects.end());
+        CHECK(glm::length(in_scene->pos - last) <= 1e-12);
+        after.physics.iterations = s.physics.iterations + 1;
+        with.changeStatics(after);
+        with.setMotion(0, {0, 0, 0}, {});
+        CHECK(with.maxPenetration() == without.maxPenetration());
+        with.remove(in_scene->id);
+        CHECK(with.frozen().empty());
     }
+}
+
+TEST_CASE("case 85: what becomes no number within a step stays where it was before it") {
+    for (const std::string_view kind : kKinds)
+        for (const double gravity : {std::nan(""), HUGE_VAL, 1e308}) {
+            Scene s = scene(1.0 / 120, 0.5, 0.5);
+            floor(s);
+            bodyOf(s, kind, {0, 1, 0}, 0.2), bodyOf(s, kind, {0.1, 2, 0}, 0.2);
+            PhysicsWorld w(s);
+            run(w, 0.1);
+            const glm::dvec3 at = w.bodies()[0].position;
+            s.world.gravity = gravity;
+            w.changeStatics(s);
+            for (int i = 0; i < 3; ++i) w.step();
+            CAPTURE(kind); CAPTURE(gravity);
+            REQUIRE(w.bodies().size() + w.frozen().size() + static_cast<std::size_t>(w.removed()) == 2);
+            for (const Body& b : w.frozen()) CHECK(finite(b));
+            for (const Body& b : w.bodies()) CHECK(finite(b));
+            if (std::isfinite(gravity)) continue;
+            REQUIRE(w.frozen().size() == 2);
+            CHECK(w.frozen()[0].position == at);
+            CHECK(w.notes().size() == 2);
+        }
 }
 
 TEST_CASE("case 86: bodies come and go while it steps: no id comes twice, what is kept of one goes with it, no memory stays") {

@@ -37,7 +37,7 @@ TEST_CASE("the ledger: each stage called for is used, and changes something; the
     REQUIRE(ledger.rows().size() == static_cast<std::size_t>(Stage::count));
     for (const StagePrice& row : ledger.rows()) {
         CAPTURE(row.effect->name);
-        const bool idle = row.effect->stage == Stage::friction || row.effect->stage == Stage::spin;
+        const bool idle = row.effect->stage == Stage::friction || row.effect->stage == Stage::spin || row.effect->stage == Stage::rolling;
         CHECK(row.called != idle);
         CHECK(row.because.empty() == idle);
         CHECK(row.because.size() <= 2);
@@ -92,6 +92,7 @@ TEST_CASE("the rows of the physics stand in the order of the stages, and name th
     Scene s = meeting(0.4);
     s.objects[1].friction = 0.25, s.objects[1].spin = {0, 1, 0};
     s.objects[2].friction = s.objects[3].friction = 0;
+    s.objects[2].rolling = 0.01;
     const Tree none;
     for (std::size_t i = 0; i < motionEffects().size(); ++i) {
         const Effect& row = motionEffects()[i];
@@ -107,6 +108,7 @@ TEST_CASE("the rows of the physics stand in the order of the stages, and name th
             CHECK(calls.found()[0].index == 1);
             CHECK(calls.found()[0].what == "friction:0.25");
         }
+        if (row.stage == Stage::rolling) CHECK(calls.found()[0].what == "rolling:0.01");
         if (row.stage == Stage::restitution) CHECK(calls.found()[0].record == Because::Record::world);
         if (row.stage == Stage::static_contacts) CHECK(calls.found()[0].what == "type:box");
         if (row.stage == Stage::spin) CHECK(calls.found()[0].what == "spin:0,1,0");

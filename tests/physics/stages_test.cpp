@@ -72,13 +72,15 @@ Scene smallScene(std::uint64_t seed) {
         if (spins) o.spin = any(20);
         if (random.in(0, 1) < 0.2) o.friction = zeroOr(random, 1);
         if (random.in(0, 1) < 0.2) o.restitution = zeroOr(random, 1);
+        if (seed % 3 == 0) o.rolling = zeroOr(random, 0.05);
     }
+    if (seed % 4 == 0) s.world.spinning = 0.01;
     return s;
 }
 
 /// A scene that calls for what is switched on.
 struct Switches {
-    bool friction = true, restitution = true, spin = true, statics = true, two = true, gravity = true, fast = false;
+    bool friction = true, restitution = true, spin = true, statics = true, two = true, gravity = true, fast = false, rolling = true;
 };
 Scene switched(const Switches& on) {
     Scene s = scene(1.0 / 120, on.restitution ? 0.5 : 0, on.friction ? 0.4 : 0, on.gravity ? kG : 0);
@@ -86,6 +88,7 @@ Scene switched(const Switches& on) {
         add(s, "box", {0, -0.5, 0}, {6, 1, 6, 0});
         add(s, "box", {1.5, 0.5, 0}, {0.05, 2, 4, 0});
     }
+    s.world.rolling = on.rolling ? 0.01 : 0;
     const double speed = on.fast ? 60 : 1.5;
     ball(s, {0, 0.4, 0}, 0.1, {speed, 0, 0.1}).spin = on.spin ? glm::dvec3{3, 0, 8} : glm::dvec3{0};
     if (on.two) ball(s, {0.5, 0.4, 0.02}, 0.1);
@@ -223,6 +226,7 @@ TEST_CASE("each stage counts exactly 0 in a scene that does not call for it, and
         {Stage::restitution, switched({.restitution = false})},
         {Stage::continuous, lone(kG)},
         {Stage::sleeping, lone(kG)},
+        {Stage::rolling, switched({.rolling = false})},
     };
     REQUIRE(std::size(cases) == kStages);
     PhysicsWorld with(switched({}));

@@ -39,6 +39,9 @@ void live(Timeline& t, const Scene& s, std::uint64_t steps = 200) {
         if (t.step() == 40) t.act(throwing(0xfedcba9876543210u, 6));
         if (t.step() == 70) t.act(changingStatics(moved(s)));
         if (t.step() == 70) t.act(settingMotion(s.objects[4].id, {0, 0.1, 0.3}, {}));
+        if (t.step() >= 80 && t.step() < 95) t.act(grabbing(s.objects[5].id, {0.05, 0, 0.1}, {0.1, 0.02 * static_cast<double>(t.step()), 0}));
+        if (t.step() == 95) t.act(lettingGo(s.objects[5].id));
+        if (t.step() == 110) t.act(exploding({0.1, 0, 0}, 4, 1.5));
         if (t.step() == 100) t.act(removing(s.objects[3].id));
         if (t.step() == 150) t.act(changingStatics(s)), t.act(throwing(3, 2));
         t.advance();

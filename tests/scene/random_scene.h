@@ -61,6 +61,8 @@ private:
             if (!key.required && below(3) == 0) continue;
             std::visit([&](auto member) {
                 set(valueAt(record, member), key.lo, key.hi, name);
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(valueAt(record, member))>, glm::dvec3>)
+                    if (key.direction && valueAt(record, member) == glm::dvec3{0}) valueAt(record, member).y = 1;
                 if constexpr (std::is_same_v<decltype(member), Slot>)
                     if (member.whole) valueAt(record, member) = std::floor(valueAt(record, member));
             }, key.member);
@@ -89,7 +91,7 @@ private:
         if (!s.materials.empty() && below(2) != 0) o.material = below(static_cast<int>(s.materials.size()));
         numbers(o);
         if (o.mass != 0 || std::signbit(o.mass)) o.density = 0;
-        if (parent != kNoParent) o.mass = o.density = 0, o.vel = o.spin = {}, o.restitution = o.friction = {};
+        if (parent != kNoParent) o.mass = o.density = 0, o.vel = o.spin = {}, o.restitution = o.friction = o.rolling = o.spinning = {};
         s.objects.push_back(o);
         const int most = std::min(o.type->max_children, o.type->min_children + 2);
         for (int n = o.type->isOperator() ? o.type->min_children + below(most - o.type->min_children + 1) : 0; n > 0; --n)

@@ -173,7 +173,7 @@ TEST_CASE("indents and children") {
 }
 
 TEST_CASE("a body stands at the top and has one mass") {
-    for (const char* key : {"mass:1", "density:1", "vel:1,0,0", "spin:1,0,0", "restitution:1", "friction:1"}) {
+    for (const char* key : {"mass:1", "density:1", "vel:1,0,0", "spin:1,0,0", "restitution:1", "friction:1", "rolling:1", "spinning:1"}) {
         const std::string name(key, std::string_view(key).find(':'));
         CHECK(in(fmt::format("object type:union\n  object type:sphere radius:1 {}\n", key)) ==
               fmt::format("3:31: '{}' is of a body, expected it only at the top level", name));

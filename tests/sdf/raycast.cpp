@@ -120,6 +120,21 @@ TEST_CASE("the ray of a pixel is the command line's formula") {
     CHECK(glm::length(cameraRay(camera, size, {1, 1}).direction) == doctest::Approx(1));
 }
 
+TEST_CASE("a place is seen at the point of the picture whose ray goes through it, and nowhere behind the eye") {
+    for (const double ortho : {0.0, 3.0}) {
+        const Camera camera{.name = "", .eye = {3, 2, 5}, .target = {0, 0.5, -1}, .fov = 50, .ortho = ortho};
+        const glm::ivec2 size{640, 360};
+        for (const glm::dvec2 point : {glm::dvec2{0, 0}, glm::dvec2{320, 180}, glm::dvec2{12.5, 300.25}, glm::dvec2{900, -40}}) {
+            const Ray ray = cameraRay(camera, size, point);
+            const auto back = pictureOf(camera, size, ray.origin + 7.0 * ray.direction);
+            REQUIRE(back);
+            CHECK(glm::length(*back - point) <= 1e-9);
+        }
+        CHECK_FALSE(pictureOf(camera, size, camera.eye + (camera.eye - camera.target)));
+        CHECK_FALSE(pictureOf(camera, size, camera.eye));
+    }
+}
+
 TEST_CASE("through a grid a ray finds what it finds among all, whatever is near") {
     Draw draw(61);
     Scene many;

@@ -36,7 +36,7 @@ private:
 };
 
 /// The stages of a physics step, each a row of the table.
-enum class Stage { flight, static_contacts, broad_phase, body_contacts, spin, friction, restitution, continuous, sleeping, count };
+enum class Stage { flight, static_contacts, broad_phase, body_contacts, spin, friction, restitution, continuous, sleeping, rolling, count };
 
 /// A key that an effect brings to a record of the scene: a number, which the shader reads through a function of its own.
 struct EffectKey {

@@ -46,6 +46,8 @@ struct Shared {
     bool product;  // of two stated values; else the greater counts
 };
 constexpr Shared kFriction{"friction", &World::friction, &Object::friction, true};
+constexpr Shared kRolling{"rolling", &World::rolling, &Object::rolling, true};
+constexpr Shared kSpinning{"spinning", &World::spinning, &Object::spinning, true};
 constexpr Shared kRestitution{"restitution", &World::restitution, &Object::restitution, false};
 
 /// The records for which some pair that can touch has a value other than 0: a body's own where its partner is a solid, or
@@ -83,6 +85,7 @@ void ofTouch(const Effect&, const Scene& scene, const Tree&, Calls& out) {
     if (castOf(scene).canTouch()) addBodies(scene, out);
 }
 void ofFriction(const Effect&, const Scene& scene, const Tree&, Calls& out) { addShared(scene, kFriction, out); }
+void ofRolling(const Effect&, const Scene& scene, const Tree&, Calls& out) { addShared(scene, kRolling, out), addShared(scene, kSpinning, out); }
 void ofRestitution(const Effect&, const Scene& scene, const Tree&, Calls& out) { addShared(scene, kRestitution, out); }
 /// A body turns from the start, or friction makes it turn; or it is no ball, and any contact does.
 void ofSpin(const Effect&, const Scene& scene, const Tree&, Calls& out) {
@@ -113,6 +116,7 @@ constexpr std::array kMotion{
     Effect{.name = "restitution", .tip = "what meets fast parts again", .calls = ofRestitution, .counts = "contacts that bounce", .stage = Stage::restitution},
     Effect{.name = "continuous", .tip = "a fast body stops at what it would have crossed", .calls = ofTouch, .counts = "searches along a path", .stage = Stage::continuous},
     Effect{.name = "sleeping", .tip = "what lies still costs nothing", .calls = ofRest, .counts = "passes over the islands", .stage = Stage::sleeping},
+    Effect{.name = "rolling", .tip = "contacts resist rolling and spinning on the spot", .calls = ofRolling, .counts = "turns of a contact's torque", .stage = Stage::rolling},
 };
 
 }  // namespace

@@ -28,4 +28,14 @@ Ray cameraRay(const Camera& camera, glm::ivec2 size, glm::dvec2 point) {
     return {camera.eye, glm::normalize(view.forward + across)};
 }
 
+std::optional<glm::dvec2> pictureOf(const Camera& camera, glm::ivec2 size, glm::dvec3 place) {
+    const View view = viewOf(camera);
+    const glm::dvec3 from_eye = place - camera.eye;
+    const double ahead = glm::dot(from_eye, view.forward);
+    if (!(ahead > 0)) return std::nullopt;
+    const double half = view.half * (view.parallel ? 1 : ahead), aspect = static_cast<double>(size.x) / size.y;
+    const double u = glm::dot(from_eye, view.right) / (aspect * half), v = glm::dot(from_eye, view.up) / half;
+    return glm::dvec2{0.5 * (u + 1) * size.x, 0.5 * (1 - v) * size.y};
+}
+
 }  // namespace mb

@@ -4,6 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <optional>
+
 namespace mb {
 
 /// The directions of a camera; unit vectors, right-handed.
@@ -21,5 +23,7 @@ struct Ray {
 /// The ray through a point of a picture of that size, in pixels from its top left corner: the centre of pixel (x, y) is
 /// (x + ½, y + ½).
 Ray cameraRay(const Camera& camera, glm::ivec2 size, glm::dvec2 point);
+/// The point of that picture whose ray goes through a place; nothing, where it is not in front of the eye.
+std::optional<glm::dvec2> pictureOf(const Camera& camera, glm::ivec2 size, glm::dvec3 place);
 
 }  // namespace mb

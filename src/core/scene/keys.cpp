@@ -13,9 +13,12 @@ constexpr double kHuge = 1e12;
 constexpr std::string_view kPatternWords[] = {"none", "checker"};
 
 const Key<World> kWorld[] = {
-    {"gravity", &World::gravity, "m/s²", "along −y", -1e4, 1e4, 0, 30},
+    {"gravity", &World::gravity, "m/s²", "along `down`", -1e4, 1e4, 0, 30},
+    {"down", &World::down, "", "where things fall to, of any length but 0", -kHuge, kHuge, -1, 1, false, false, false, true},
     {"restitution", &World::restitution, "", "bounciness of bodies that state none of their own", 0, 1, 0, 1},
     {"friction", &World::friction, "", "of bodies that state none of their own", 0, 1e3, 0, 2},
+    {"rolling", &World::rolling, "m", "a contact resists rolling by at most this lever times its push", 0, 1e6, 0, 0.1},
+    {"spinning", &World::spinning, "m", "a contact resists spinning on the spot by at most this lever times its push", 0, 1e6, 0, 0.1},
     {"background", &World::background, "", "colour where no ray hits", 0, 1e6, 0, 1},
     {"bounds", &World::bounds, "m", "a body further than this from the origin is removed", 1e-3, kFar, 1, 1000, false, true},
 };
@@ -80,6 +83,8 @@ const Key<Object> kObject[] = {
     {"spin", &Object::spin, "rad/s", "", -1e5, 1e5, -20, 20, false, false, true},
     {"restitution", &Object::restitution, "", "bounciness; none: the world's", 0, 1, 0, 1, false, false, true},
     {"friction", &Object::friction, "", "none: the world's", 0, 1e3, 0, 2, false, false, true},
+    {"rolling", &Object::rolling, "m", "the lever of the resistance to rolling; none: the world's", 0, 1e6, 0, 0.1, false, false, true},
+    {"spinning", &Object::spinning, "m", "the lever of the resistance to spinning on the spot; none: the world's", 0, 1e6, 0, 0.1, false, false, true},
 };
 
 /// A record's own rows, and behind them those that effects bring to it.

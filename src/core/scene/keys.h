@@ -26,6 +26,7 @@ template <class Record> struct Key {
     bool required = false;               // a record that leaves it out is at fault
     bool logarithmic = false;            // the slider's scale
     bool body = false;                   // of a body: only an object at the top level takes it
+    bool direction = false;              // a vector of any length but 0
 };
 
 /// The value a row's member stands for.

@@ -3,9 +3,12 @@
 #include "core/scene/keys.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace mb {
@@ -41,6 +44,13 @@ bool sameScene(const Scene& a, const Scene& b) {
     return a.comment == b.comment && sameRecord(a.world, b.world) && sameRecord(a.render, b.render) && sameRecord(a.physics, b.physics) &&
            sameRecords(a.cameras, b.cameras) && sameRecords(a.lights, b.lights) && sameRecords(a.materials, b.materials) &&
            sameRecords(a.objects, b.objects);
+}
+
+glm::dvec3 World::fall() const {
+    const double largest = std::max({std::fabs(down.x), std::fabs(down.y), std::fabs(down.z)});
+    if (!(largest > 0)) return glm::dvec3{0};  // of a world made in code
+    const glm::dvec3 direction = down / largest;  // whose square neither overflows nor vanishes
+    return gravity * (direction / glm::length(direction));
 }
 
 std::size_t subtreeEnd(const Scene& scene, std::size_t i) {

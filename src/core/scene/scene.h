@@ -29,12 +29,17 @@ enum class Carrier { world, render, light, material };
 Extra initialExtra(Carrier carrier);
 
 struct World {
-    double gravity = 9.81;       // m/s², along −y
+    double gravity = 9.81;       // m/s², along `down`
+    glm::dvec3 down{0, -1, 0};   // of any length but 0
     double restitution = 0.6;    // of bodies that state none of their own
     double friction = 0.4;
+    double rolling = 0, spinning = 0;  // m: levers of the resistance to rolling and to spinning on the spot
     glm::dvec3 background{0};
     double bounds = 50;          // m: a body further than this from the origin is removed
     Extra extra = initialExtra(Carrier::world);
+
+    /// What falls freely is accelerated by this, m/s².
+    glm::dvec3 fall() const;
 };
 
 struct Camera {
@@ -103,7 +108,7 @@ struct Object {
     double mass = 0;             // kg
     double density = 0;          // kg/m³
     glm::dvec3 vel{0}, spin{0};  // m/s, rad/s
-    std::optional<double> restitution, friction;
+    std::optional<double> restitution, friction, rolling, spinning;
 
     bool isBody() const { return mass > 0 || density > 0; }
 };

@@ -40,7 +40,11 @@ template <class Record> ValueFault assign(Record& record, const Key<Record>& key
             field = static_cast<Pattern>(index);
             return {};
         } else if constexpr (std::is_same_v<T, glm::dvec3>) {
-            return readNumbers(key.name, value, {key.lo, key.hi}, std::span(&field.x, 3));
+            glm::dvec3 read{0};
+            if (ValueFault f = readNumbers(key.name, value, {key.lo, key.hi}, std::span(&read.x, 3))) return f;
+            if (key.direction && read == glm::dvec3{0}) return LexFault{0, fmt::format("'{}' has no length, expected a direction", key.name)};
+            field = read;
+            return {};
         } else {
             constexpr bool truth = std::is_same_v<T, bool>, whole = truth || std::is_same_v<T, int>;
             double x = 0;
