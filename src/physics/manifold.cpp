@@ -14,6 +14,7 @@ constexpr double kAlone = 1.5;              // of the spacing: the lowest point 
 constexpr std::array kInwards{0.02, 0.08, 0.3, 0.8, 2.0};  // of the spacing: how far inside a sharp point its partner's face is read
 constexpr double kLevel = 1e-4;             // a slope that is none
 constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made
+constexpr int kDrops = 4;                   // steps from beside a surface onto it
 constexpr double kSloping = 0.02;           // one that may be a flat face's
 constexpr double kBeside = 0.01;            // of the spacing
 constexpr double kTurning = 0.6;            // the same, of a point that is yet to move along its surface
@@ -213,6 +214,18 @@ private:
         return l2 > 1e-6 ? (glm::dot(there.gradient, here.gradient) / l2) * here.gradient - there.gradient : glm::dvec3{0};
     }
 
+    /// Brings a candidate onto its own solid's surface. Says whether it got there: past a rim there may be none to get to.
+    bool drop(Candidate& io_c) const {
+        for (int round = 0; round < kDrops; ++round) {
+            const Slope s = slopeOf(owner(io_c), io_c.at);
+            const double n2 = glm::dot(s.gradient, s.gradient);
+            if (std::fabs(s.distance) <= kWorth * spacingOf(io_c)) return true;
+            if (!(n2 > 1e-6)) return false;
+            io_c.at -= (s.distance / n2) * s.gradient;
+        }
+        return false;
+    }
+
     /// Moves the point along its own solid's surface to where the other's field is least. A corner stays; and so does a point on
     /// the rim of a flat place that hardly slopes: what it stands on is that rim, not the far side.
     void refine(Candidate& io_c) const {
@@ -224,12 +237,8 @@ private:
             if (slant < kLevel || slant * stride < kWorth * spacingOf(io_c)) break;
             Candidate next = io_c;
             next.at += (stride / slant) * along;
-            for (int round = 0; round < 2; ++round) {
-                const Slope s = slopeOf(owner(next), next.at);
-                const double n2 = glm::dot(s.gradient, s.gradient);
-                if (n2 > 1e-6) next.at -= (s.distance / n2) * s.gradient;
-            }
-            const Slope lower = otherAt(next, next.at, next.inwards);
+            const bool on_surface = drop(next);
+            const Slope lower = on_surface ? otherAt(next, next.at, next.inwards) : there;
             if (lower.distance < there.distance - 1e-9 * stride) {
                 const glm::dvec3 on = downhill(next, lower);
                 if (slant < kSloping && glm::length(on) > 0.9 * slant) break;
