@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace mb {
 namespace {
@@ -19,6 +20,7 @@ constexpr double kSloping = 0.02;           // one that may be a flat face's
 constexpr double kBeside = 0.01;            // of the spacing
 constexpr double kTurning = 0.6;            // the same, of a point that is yet to move along its surface
 constexpr double kCone = 0.1;               // by which a contact's normal may leave the cone of the surface's own
+constexpr double kRounded = 0.25;           // the same, of a round: whether its surface is there is asked
 constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
 
 /// A surface point of one solid near the other.
@@ -43,16 +45,24 @@ public:
         for (std::size_t o = 0; o < others_.size(); ++o) collectOfOther(o);
         Manifold found{{}, margin_};
         if (candidates_.empty()) return found.room = std::max(margin_, room_), found;
-        for (Candidate c : outermost(touching())) {
-            if (!isSharp(c)) refine(c);
-            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
+        for (const std::vector<Candidate>& group : outermost(touching())) {
+            Candidate deepest = group[0];
+            for (const Candidate& c : group) {
+                Candidate lower = c;
+                if (!isSharp(c)) refine(lower);
+                if (!faces(lower, coneOf(c))) lower = c;
+                addApart(lower, found.points);
+                if (lower.gap < deepest.gap) deepest = lower;
+            }
+            addLowest(deepest, found.points);
         }
         for (Candidate c : lowest()) {
-            c.inwards = isSharp(c) ? kInwards[0] * spacingOf(c) : 0;
+            c.at = owner(c).pose.toWorld(c.from->onSurface());
+            c.inwards = isSharp(c) ? kInwards[0] * fineness(c) : 0;
             setTo(c, otherAt(c, c.at, c.inwards));
             if (!faces(c, kTurning)) continue;
             refine(c);
-            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
+            if (c.gap <= margin_ && faces(c, coneOf(c))) addApart(c, found.points);
         }
         return found;
     }
@@ -61,7 +71,10 @@ private:
     const Placed& asked(const Candidate& c) const { return c.of_a ? others_[c.other] : a_; }
     const Placed& owner(const Candidate& c) const { return c.of_a ? a_ : others_[c.other]; }
     static bool isSharp(const Candidate& c) { return c.from->sharp; }
+    static double coneOf(const Candidate& c) { return c.from->round > 0 ? kRounded : kCone; }
     double spacingOf(const Candidate& c) const { return owner(c).solid->points.spacing(); }
+    /// The finer of the two spacings, which small lengths are shares of: a die is small at a tray's rim.
+    double fineness(const Candidate& c) const { return std::min(spacingOf(c), asked(c).solid->points.empty() ? INFINITY : asked(c).solid->points.spacing()); }
 
     double fieldOf(const Placed& p, glm::dvec3 at) const { return ++evaluations_, p.solid->at(p.pose.fromWorld(at)); }
     Slope slopeOf(const Placed& p, glm::dvec3 at) const {
@@ -92,8 +105,9 @@ private:
             Candidate best{at, reach, i, 0, true, &point, 0, {}};
             bool found = false;
             for (std::size_t o = 0; o < others_.size(); ++o) {
-                if (distanceTo(others_[o].solid->box, others_[o].pose.fromWorld(at)) > best.gap) continue;
-                if (const double f = fieldOf(others_[o], at); f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
+                if (distanceTo(others_[o].solid->box, others_[o].pose.fromWorld(at)) - point.round > best.gap) continue;
+                const double f = fieldOf(others_[o], at) - point.round;
+                if (f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
             }
             if (found) candidates_.push_back(best);
             else room_ = margin_;  // it is not known how much more
@@ -106,7 +120,7 @@ private:
         const auto may = [&](glm::dvec3 centre, double radius) { return near(a_, other.pose.toWorld(centre), radius, between, reach); };
         other.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
             const glm::dvec3 at = other.pose.toWorld(point.place);
-            const double f = fieldOf(a_, at);
+            const double f = fieldOf(a_, at) - point.round;
             if (f > reach) room_ = std::min(room_, f - between);
             else candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &point, 0, {}});
         });
@@ -121,17 +135,55 @@ private:
         return s;
     }
 
-    /// Sets the candidate's gap and normal; says whether it is a contact. At the other's edges the field has no one slope, and
+    /// Sets the candidate's gap, normal and place; says whether it is a contact. At the other's edges the field has no one slope, and
     /// deep inside or beside them it has the wrong one: of a box just on the rim of another, or sunk into it there. So that of a
     /// sharp point is read ever further inside until the surfaces face one another.
     bool settle(Candidate& io_c) const {
+        if (io_c.from->round > 0) {
+            if (const auto contact = settleRound(io_c)) return *contact;
+            io_c.at = owner(io_c).pose.toWorld(io_c.from->onSurface());
+        }
         for (const double share : kInwards) {
-            io_c.inwards = isSharp(io_c) ? share * spacingOf(io_c) : 0;
+            io_c.inwards = isSharp(io_c) ? share * fineness(io_c) : 0;
             setTo(io_c, otherAt(io_c, io_c.at, io_c.inwards));
-            if (faces(io_c, kCone)) return io_c.gap <= margin_;
+            if (faces(io_c, kCone) && (!isSharp(io_c) || hasFoot(io_c))) return io_c.gap <= margin_;
             if (!isSharp(io_c)) break;
         }
         return false;
+    }
+
+    /// The contact of a round is where its middle is nearest to the other: if the other's distance there is one to its surface and no
+    /// mere bound, the place so found has the gap so found. Beside where two edges cross that place lies off the own surface, and the
+    /// contact is further along it. Nothing: it is not known.
+    std::optional<bool> settleRound(Candidate& io_c) const {
+        const double round = io_c.from->round, beside = kBeside * round;
+        Candidate c = io_c;
+        setTo(c, slopeOf(asked(c), c.at));
+        c.gap -= round;
+        if (c.gap > margin_ || !faces(c, coneOf(c))) return false;
+        c.at += (c.of_a ? -round : round) * c.normal;
+        if (std::fabs(fieldOf(owner(c), c.at)) > beside) {
+            if (!drop(c)) return false;
+            refine(c);
+            io_c = c;
+            return c.gap <= margin_ && faces(c, coneOf(c));
+        }
+        if (std::fabs(fieldOf(asked(c), c.at) - c.gap) > beside) return std::nullopt;
+        io_c = c;
+        return true;
+    }
+
+    /// Whether the other has a surface where a normal that was read elsewhere says so; its gap is then measured along that normal.
+    bool hasFoot(Candidate& io_c) const {
+        const glm::dvec3 out = io_c.of_a ? io_c.normal : -io_c.normal;
+        for (int i = 0; i < 3; ++i) {
+            const Slope s = slopeOf(asked(io_c), io_c.at - io_c.gap * out);
+            const double along = glm::dot(s.gradient, out);
+            if (std::fabs(s.distance) <= kWorth * fineness(io_c)) return true;
+            if (along < kAlike * glm::length(s.gradient)) return std::fabs(s.distance) <= kBeside * fineness(io_c);
+            io_c.gap += s.distance / along;
+        }
+        return true;
     }
 
     void setTo(Candidate& io_c, const Slope& s) const {
@@ -152,7 +204,7 @@ private:
     std::vector<Candidate> touching() const {
         std::vector<Candidate> found;
         for (Candidate c : candidates_)
-            if (c.gap <= margin_ + (isSharp(c) ? kBeside * spacingOf(c) : 0) && settle(c)) found.push_back(c);
+            if (c.gap <= margin_ + (isSharp(c) ? kBeside * fineness(c) : 0) && settle(c)) found.push_back(c);
         return found;
     }
 
@@ -174,15 +226,15 @@ private:
 
     /// Of each group of like normals the outermost in eight directions, and the deepest if it is deeper than all of those.
     /// The directions lie in a's frame, off its axes: they choose the same points while a rests.
-    std::vector<Candidate> outermost(const std::vector<Candidate>& all) const {
-        std::vector<Candidate> chosen;
+    std::vector<std::vector<Candidate>> outermost(const std::vector<Candidate>& all) const {
+        std::vector<std::vector<Candidate>> chosen;
         std::vector<char> grouped(all.size(), 0);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (grouped[i]) continue;
             std::vector<std::size_t> group;
             for (std::size_t k = i; k < all.size(); ++k)
                 if (!grouped[k] && glm::dot(all[i].normal, all[k].normal) > kAlike) grouped[k] = 1, group.push_back(k);
-            chooseOf(all, group, chosen);
+            chooseOf(all, group, chosen.emplace_back());
         }
         return chosen;
     }
@@ -219,7 +271,7 @@ private:
         for (int round = 0; round < kDrops; ++round) {
             const Slope s = slopeOf(owner(io_c), io_c.at);
             const double n2 = glm::dot(s.gradient, s.gradient);
-            if (std::fabs(s.distance) <= kWorth * spacingOf(io_c)) return true;
+            if (std::fabs(s.distance) <= kWorth * fineness(io_c)) return true;
             if (!(n2 > 1e-6)) return false;
             io_c.at -= (s.distance / n2) * s.gradient;
         }
@@ -228,7 +280,7 @@ private:
 
     /// Moves the point along its own solid's surface to where the other's field is least. A corner stays; and so does a point on
     /// the rim of a flat place that hardly slopes: what it stands on is that rim, not the far side.
-    void refine(Candidate& io_c) const {
+    void refine(Candidate& io_c, bool stays_on_rims = true) const {
         Slope there = otherAt(io_c, io_c.at, io_c.inwards);
         glm::dvec3 along = downhill(io_c, there);
         double stride = 0.25 * spacingOf(io_c);
@@ -241,7 +293,7 @@ private:
             const Slope lower = on_surface ? otherAt(next, next.at, next.inwards) : there;
             if (lower.distance < there.distance - 1e-9 * stride) {
                 const glm::dvec3 on = downhill(next, lower);
-                if (slant < kSloping && glm::length(on) > 0.9 * slant) break;
+                if (stays_on_rims && slant < kSloping && glm::length(on) > 0.9 * slant) break;
                 io_c = next, there = lower, along = on;
             } else {
                 stride *= 0.25;
@@ -250,10 +302,18 @@ private:
         setTo(io_c, there);
     }
 
+    /// Of a face's points none may be the lowest where two rims cross between points: that place too, from the deepest on.
+    void addLowest(Candidate c, std::vector<ManifoldPoint>& io_points) const {
+        if (isSharp(c)) return;
+        const double before = c.gap;
+        refine(c, false);
+        if (c.gap < before - kWorth * fineness(c) && faces(c, coneOf(c))) addApart(c, io_points);
+    }
+
     /// Adds it unless there is one at its place already; of two the deeper stays.
     void addApart(const Candidate& c, std::vector<ManifoldPoint>& io_points) const {
         const ManifoldPoint point{c.at, c.normal, c.gap, c.feature, c.other};
-        const double same = kSame * std::min(spacingOf(c), a_.solid->points.spacing());
+        const double same = kSame * fineness(c);
         for (ManifoldPoint& p : io_points) {
             if (p.other != c.other || glm::length(p.point - c.at) > same || glm::dot(p.normal, c.normal) < kAlike) continue;
             if (c.gap < p.gap - 1e-9) p = point;
