@@ -1,7 +1,7 @@
 #pragma once
 // Points on a shape's surface from which its contacts are looked for: every corner, every edge at intervals, and where
 // the surface is curved, every cell of it. Flat places have none: a flat face meets another shape where the other has a
-// corner, an edge or a curve, or at the face's own rim.
+// corner, an edge or a curve, or at the face's own rim. Hollows have none either: what touches them from within is rounder there.
 #include "core/sdf/tree.h"
 
 #include <span>
@@ -16,6 +16,7 @@ struct SurfacePoint {
     glm::dvec3 normal{0};              // unit, the middle of the cone, out of the shape
     double cosine = 1;                 // of the cone's half angle
     bool sharp = false;                // an edge or a corner: all of the cone's normals are this one point's
+    glm::dvec3 along{0};               // unit, of an edge: its direction; 0: there is none
     double round = 0;                  // m: radius of the round; 0: none is known
 
     glm::dvec3 onSurface() const { return place + round * normal; }
