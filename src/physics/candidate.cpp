@@ -149,9 +149,9 @@ bool Settler::stand(Candidate& io_c, Footing& io_footing) const {
     for (int round = 0; round < kDrops; ++round) {
         const Slope own = io_footing.own = slopeOf(*io_c.owner, io_c.at);
         const double n2 = glm::dot(own.gradient, own.gradient);
-        if (std::fabs(own.distance) <= kWorth * io_c.fineness()) return true;
         if (!(n2 > 1e-6)) return false;
-        io_c.at -= (own.distance / n2) * own.gradient;
+        io_c.at -= (own.distance / n2) * own.gradient;  // the last one too: gaps must not jump by what is near enough
+        if (std::fabs(own.distance) <= kWorth * io_c.fineness()) return true;
     }
     return false;
 }
@@ -171,14 +171,12 @@ bool Settler::standOnEdge(Candidate& io_c, Footing& io_footing) const {
         const Slope s = read(io_footing.first, io_footing.second), t = read(io_footing.second, io_footing.first);
         const double ss = glm::dot(s.gradient, s.gradient), st = glm::dot(s.gradient, t.gradient), tt = glm::dot(t.gradient, t.gradient);
         const double det = ss * tt - st * st;
-        const bool both = det > 1e-3 * ss * tt;
-        if (both && std::fabs(s.distance) <= on && std::fabs(t.distance) <= on) return true;
-        if (both) {
-            io_c.at -= ((s.distance * tt - t.distance * st) / det) * s.gradient + ((t.distance * ss - s.distance * st) / det) * t.gradient;
-            const glm::dvec3 along = glm::normalize(glm::cross(s.gradient, t.gradient));
-            io_footing.along = glm::dot(along, io_footing.along) < 0 ? -along : along;
-            io_footing.first = s.gradient / std::sqrt(ss), io_footing.second = t.gradient / std::sqrt(tt);
-        }
+        if (!(det > 1e-3 * ss * tt)) continue;  // both are on one face
+        io_c.at -= ((s.distance * tt - t.distance * st) / det) * s.gradient + ((t.distance * ss - s.distance * st) / det) * t.gradient;
+        if (std::fabs(s.distance) <= on && std::fabs(t.distance) <= on) return true;
+        const glm::dvec3 along = glm::normalize(glm::cross(s.gradient, t.gradient));
+        io_footing.along = glm::dot(along, io_footing.along) < 0 ? -along : along;
+        io_footing.first = s.gradient / std::sqrt(ss), io_footing.second = t.gradient / std::sqrt(tt);
     }
     return std::fabs(fieldOf(*io_c.owner, io_c.at)) <= 10 * on;
 }

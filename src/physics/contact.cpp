@@ -59,7 +59,7 @@ template <bool spins> struct LeverRow {
     Contact& contact;
     Motion& motion_a;
     Motion* motion_b;
-    double inverse_a = 0, inverse_b = 0, normal_mass = 0;
+    double inverse_a = 0, inverse_b = 0, normal_mass = 0, twist_mass = 0;
     glm::dmat3 turning_a{0}, turning_b{0};  // inverse inertia, in the world's frame
     glm::dvec3 turn_a{0}, turn_b{0};        // by a normal impulse of 1
     glm::dvec3 t{0}, u{0};                  // unit tangents
@@ -75,6 +75,7 @@ template <bool spins> struct LeverRow {
             if (spins) turning_b = of_b.worldInverseInertia(), turn_b = turning_b * glm::cross(c.arm_b, c.normal);
         }
         normal_mass = 1 / glm::dot(c.normal, response(c.normal));
+        if (spins && c.patch > 0) twist_mass = 1 / glm::dot(c.normal, (turning_a + turning_b) * c.normal);
         const glm::dvec3 n = c.normal, size = glm::abs(n);
         t = glm::normalize(glm::cross(n, size.x < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0})), u = glm::cross(n, t);
         const glm::dvec3 by_t = response(t), by_u = response(u);
@@ -105,6 +106,12 @@ template <bool spins> struct LeverRow {
         motion_a.spin += turning_a * glm::cross(contact.arm_a, impulse);
         if (motion_b) motion_b->spin -= turning_b * glm::cross(contact.arm_b, impulse);
     }
+    /// How fast a turns about the normal against b, rad/s.
+    double turning() const { return glm::dot(motion_b ? motion_a.spin - motion_b->spin : motion_a.spin, contact.normal); }
+    void twist(double impulse) const {
+        motion_a.spin += turning_a * (impulse * contact.normal);
+        if (motion_b) motion_b->spin -= turning_b * (impulse * contact.normal);
+    }
     glm::dvec3 dragFor(const glm::dvec3& slip) const {
         const double s = glm::dot(t, slip), r = glm::dot(u, slip);
         return (tt * s + tu * r) * t + (tu * s + uu * r) * u;
@@ -134,6 +141,16 @@ template <class Row> double turnDrag(const Row& row, std::uint64_t& io_drags) {
     return glm::length(change) * (row.inverse_a + row.inverse_b);
 }
 
+/// Turns the twist towards no turning about the normal, within what friction can do on a disc that presses evenly: ⅔ of it, at the
+/// rim. Without it a die that hangs between two points would swing for ever.
+template <class Row> void turnTwist(const Row& row) {
+    Contact& c = row.contact;
+    const double limit = 2.0 / 3 * c.pairing.friction * c.push * c.patch;
+    const double twist_now = std::clamp(c.twist - row.twist_mass * row.turning(), -limit, limit), change = twist_now - c.twist;
+    c.twist = twist_now;
+    row.twist(change);
+}
+
 /// One turn; says by how much it changed a velocity at the contact.
 template <bool drags, class Row> double turn(const Row& row, std::uint64_t& io_drags) {
     Contact& c = row.contact;
@@ -143,14 +160,19 @@ template <bool drags, class Row> double turn(const Row& row, std::uint64_t& io_d
     row.push(change);
     const double changed = std::fabs(change) / row.normal_mass;
     if constexpr (!drags) return changed;
-    else return std::max(changed, turnDrag(row, io_drags));
+    if constexpr (requires { row.twist_mass; })
+        if (row.twist_mass > 0) turnTwist(row);
+    return std::max(changed, turnDrag(row, io_drags));
 }
 
 template <bool drags, class Row> void begin(std::vector<Row>& io_rows, std::span<const Body> bodies, Contact& c, std::span<Motion> motion) {
     io_rows.emplace_back(bodies, c, motion[static_cast<std::size_t>(c.a)], c.b == kStatic ? nullptr : &motion[static_cast<std::size_t>(c.b)]);
     if (c.push != 0) io_rows.back().push(c.push);
-    if constexpr (drags)
+    if constexpr (drags) {
         if (c.drag != glm::dvec3{0}) io_rows.back().drag(c.drag);
+        if constexpr (requires(const Row& row) { row.twist_mass; })
+            if (c.twist != 0) io_rows.back().twist(c.twist);
+    }
 }
 
 template <bool spins, bool drags>

@@ -103,7 +103,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
     int of = -1;
     for (const Contact& c : contacts) {
         Contact m = c;
-        m.push = 0, m.drag = {}, m.target = 0, m.slip = {};
+        m.push = 0, m.drag = {}, m.twist = 0, m.target = 0, m.slip = {};
         if (!betweenBalls(bodies_, c)) {
             midway.push_back(m);
             continue;
@@ -171,7 +171,7 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) const {
         return Range{static_cast<std::size_t>(begin - kept_.begin()), static_cast<std::size_t>(end - kept_.begin())};
     };
     const auto take = [&](Contact& io_c, std::size_t k) {
-        taken[k] = 1, io_c.push += kept_[k].push;
+        taken[k] = 1, io_c.push += kept_[k].push, io_c.twist += kept_[k].twist;
         if (io_c.pairing.friction != 0) io_c.drag += kept_[k].drag - glm::dot(kept_[k].drag, io_c.normal) * io_c.normal;
     };
     for (const bool same_feature : {true, false}) {
@@ -206,7 +206,7 @@ void PhysicsWorld::keep(std::span<const Contact> contacts) {
     for (const Contact& c : contacts)
         if (c.push > 0)
             kept_.push_back({bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
-                             c.arm_a, c.push, c.drag});
+                             c.arm_a, c.push, c.drag, c.twist});
     std::stable_sort(kept_.begin(), kept_.end(), [](const Kept& x, const Kept& y) { return std::pair{x.a, x.b} < std::pair{y.a, y.b}; });
 }
 

@@ -209,6 +209,7 @@ private:
     /// The round that all the planes touch, if its surface is the shape's.
     std::optional<Round> roundOf(std::span<const Plane> planes, glm::dvec3 normal) const {
         const Round round = roundWithin(planes);
+        if (round.radius > 2 * glm::length(half_)) return std::nullopt;  // no edge: points far from their surface are hard to find
         const double off = 100 * on_;
         const auto differs = [&](glm::dvec3 p, double f) { return !(std::fabs(distance<double>(tree_, {p.x, p.y, p.z}) - f) <= off); };
         if (!(round.radius > 0) || differs(round.middle, -round.radius) || differs(round.middle + round.radius * normal, 0)) return std::nullopt;

@@ -17,7 +17,7 @@ struct SurfacePoint {
     double cosine = 1;                 // of the cone's half angle
     bool sharp = false;                // an edge or a corner: all of the cone's normals are this one point's
     glm::dvec3 along{0};               // unit, of an edge: its direction; 0: there is none
-    double round = 0;                  // m: radius of the round; 0: none is known
+    double round = 0;                  // m: radius of the round, at most the spacing; 0: none is known
 
     glm::dvec3 onSurface() const { return place + round * normal; }
 };

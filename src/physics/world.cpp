@@ -219,7 +219,7 @@ std::uint64_t PhysicsWorld::stateHash() const {
     for (const Body& b : bodies_) addState(hash, b);
     for (const Kept& k : kept_) {
         hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
-        hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag);
+        hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag), hash.add(k.twist);
     }
     memory_.addTo(hash);
     return hash.value();

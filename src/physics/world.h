@@ -77,6 +77,7 @@ private:
         glm::dvec3 normal{0}, arm{0};
         double push = 0;
         glm::dvec3 drag{0};
+        double twist = 0;
     };
 
     struct Made {                                              // a shape that a body was made of
