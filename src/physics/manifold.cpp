@@ -11,6 +11,7 @@ namespace {
 constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
+constexpr double kOneEdge = 0.9;            // of two surface normals' product: one edge's, or one curve's
 constexpr double kDeeper = 1e-5;            // of the spacing: a lower place is worth a point of its own
 constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
 
@@ -102,7 +103,7 @@ private:
     }
 
     /// Of a curve, or where two edges cross, the points on either side may be beyond the margin though the curve is within it: of
-    /// those the lowest around.
+    /// those the lowest around, of each edge and face of its own.
     std::vector<Candidate> lowest() const {
         std::vector<Candidate> found;
         for (const Candidate& c : candidates_) {
@@ -110,7 +111,7 @@ private:
             const double around = kAlone * c.spacing();
             const bool beaten = std::ranges::any_of(candidates_, [&](const Candidate& d) {
                 return d.of_a == c.of_a && d.other == c.other && (d.gap < c.gap || (d.gap == c.gap && d.feature < c.feature)) &&
-                       glm::length(d.at - c.at) < around;
+                       glm::length(d.at - c.at) < around && glm::dot(d.from->normal, c.from->normal) > kOneEdge;
             });
             if (!beaten) found.push_back(c);
         }

@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtx/quaternion.hpp>
 
 using namespace mb;
 using namespace mb::test;
@@ -91,4 +93,73 @@ TEST_CASE("of two rounded boxes in any position the nearest place is found") {
         CHECK(std::fabs(found - gap) < 1e-4);
     }
     MESSAGE("worst ", worst, ", missed ", missed);
+}
+
+TEST_CASE("a corner in a pip touches its rim where it is deepest") {
+    // The rim is a circle, and the rounded box is convex with an exact distance: its least value on the circle is the depth.
+    constexpr double kHalf = 0.25, kPip = 0.05;
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "box", {}, {2 * kHalf, 2 * kHalf, 2 * kHalf, 0.04}, 0);
+    add(s, "sphere", {0, kHalf, 0}, {kPip}, 0);
+    const Solid die = makeSolid(makeTree(s), true), box = solidOf("box", {2 * kHalf, 2 * kHalf, 2 * kHalf, 0.04});
+    const Placed b{&die, {}, 0};
+    const glm::dmat3 corner_down = glm::mat3_cast(glm::rotation(glm::normalize(glm::dvec3{1, 1, 1}), glm::dvec3{0, -1, 0}));
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        const double x = random.in(-1, 1), y = random.in(-3, 3), z = random.in(-1, 1);
+        Placed a{&box, turnedBy({}, {0, y, 0}), 0};
+        a.pose.rotation = turnedBy({}, {0.4 * x, 0, 0.4 * z}).rotation * a.pose.rotation * corner_down;
+        const double aside_x = random.in(-0.02, 0.02), aside_z = random.in(-0.02, 0.02), wanted = random.in(-2e-3, -2e-4);
+        const auto depth = [&] {
+            double least = INFINITY;
+            for (int k = 0; k < 2000; ++k) {
+                const double turn = 2 * kPi * k / 2000;
+                least = std::min(least, box.at(a.pose.fromWorld({kPip * std::cos(turn), kHalf, kPip * std::sin(turn)})));
+            }
+            return least;
+        };
+        const glm::dvec3 tip = a.pose.rotation * glm::dvec3{0.23};
+        double low = 0.1, high = 0.5;
+        for (int k = 0; k < 30; ++k) {
+            a.pose.position = glm::dvec3{aside_x, 0.5 * (low + high), aside_z} - tip;
+            (depth() < wanted ? low : high) = 0.5 * (low + high);
+        }
+        const double deepest = depth();
+        std::uint64_t evaluations = 0;
+        double found = INFINITY;
+        for (const ManifoldPoint& p : manifold(a, {&b, 1}, 1e-3, evaluations).points) found = std::min(found, p.gap);
+        CAPTURE(i);
+        CAPTURE(deepest);
+        CHECK(found <= deepest + 2e-4);
+        CHECK(found >= -0.05);
+    }
+}
+
+TEST_CASE("every contact's place is on the surface it belongs to, at a tray's rim too") {
+    // Above its opening the tray's distance is a bound that is 0 nowhere: what is moved along the rim and past it finds no surface.
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "box", {0, 1.4, 0}, {6, 3, 6, 0}, 0);
+    add(s, "box", {0, 1.6, 0}, {5.6, 3, 5.6, 0}, 0);
+    const Solid tray = makeSolid(makeTree(s), true), die = solidOf("box", {0.5, 0.5, 0.5, 0.04});
+    const Placed b{&tray, {}, 0};
+    Random random(4);
+    int touching = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double x = random.in(1.9, 3.1), y = random.in(2.8, 3.2), z = random.in(-3, 3), turn_x = random.in(-3, 3), turn_z = random.in(-3, 3);
+        const Placed a{&die, turnedBy({x, y, z}, {turn_x, 0, turn_z}), 0};
+        std::uint64_t evaluations = 0;
+        const Manifold found = manifold(a, {&b, 1}, 1e-3, evaluations);
+        touching += !found.points.empty();
+        for (const ManifoldPoint& p : found.points) {
+            const bool of_tray = (p.feature >> 63) != 0;
+            const double off = of_tray ? tray.at(p.point) : die.at(a.pose.fromWorld(p.point));
+            CAPTURE(i);
+            CAPTURE(of_tray);
+            CHECK(std::fabs(off) < 1e-5);
+            if (of_tray) CHECK(die.at(a.pose.fromWorld(p.point)) < 2e-3);
+        }
+    }
+    CHECK(touching > 200);
 }
