@@ -146,6 +146,7 @@ template <class Row> double turnDrag(const Row& row, std::uint64_t& io_drags) {
 template <class Row> void turnTwist(const Row& row) {
     Contact& c = row.contact;
     const double limit = 2.0 / 3 * c.pairing.friction * c.push * c.patch;
+    if (limit == 0 && c.twist == 0) return;
     const double twist_now = std::clamp(c.twist - row.twist_mass * row.turning(), -limit, limit), change = twist_now - c.twist;
     c.twist = twist_now;
     row.twist(change);
