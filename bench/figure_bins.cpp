@@ -2,6 +2,7 @@
 #include "bench/figure_bins.h"
 
 #include "bench/bin.h"
+#include "bench/figure_pile.h"
 
 #include <fmt/format.h>
 
@@ -60,10 +61,16 @@ void runPhysics(PhysicsBench& bench) {
     bench.print({{"figure", "about"}, {"rounds", bench.options.rounds}, {"seed", bench.options.seed}});
     const std::vector<const BinEngine*> engines = enginesFor(bench);
     for (const int balls : bench.options.balls) compare(bench, engines, balls);
+    if (!bench.options.only.empty()) return;
+    for (const int dice : bench.options.dice) printPile(bench, dice);
 }
 
 std::string inWords(const Json& line) {
     if (!line.contains("ms_a_step")) return {};
+    if (line["figure"] == "pile")
+        return fmt::format("{:>6} carved dice{:>13} ms a step, {} of them asleep after {} s, overlaps {:.5f} m at most", line["dice"].get<int>(),
+                           line["ms_a_step"].dump(), line["asleep"].get<int>(), line["seconds_to_rest"].dump(),
+                           line["overlap"]["largest"].get<double>());
     const Json& overlap = line["overlap"];
     std::string text = fmt::format("{:>6} balls  {:<9}{:>9} ms a step, overlaps {:.4f} m at most, {:.5f} m in the mean",
                                    line["balls"].get<int>(), line["engine"].get<std::string>(), line["ms_a_step"].dump(),

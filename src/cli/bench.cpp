@@ -111,20 +111,22 @@ std::function<void()> make(CLI::App& app, Common& common) {
     addOptions(*effects, *e);
     effects->add_flag("--quick", e->bench.quick, "small pictures and five rounds: does it work?");
 
-    CLI::App* physics = app.add_subcommand("physics", "balls in a bin: time a step and overlaps, against Bullet and ODE");
+    CLI::App* physics = app.add_subcommand("physics", "balls in a bin against Bullet and ODE, and a pile of carved dice: time a step and overlaps");
     physics->footer("Example:\n  marchbox bench physics --only bullet --balls 500,2000");
     const auto p = std::make_shared<bench::PhysicsOptions>();
     physics->fallthrough();
     physics->add_option("--rounds", p->rounds, "turns each engine takes")->capture_default_str()->check(within(3, 1000));
     physics->add_option("--balls", p->balls, "how many in each bin, a list with commas")->delimiter(',')->capture_default_str()
         ->check(within(1, 100'000));
+    physics->add_option("--dice", p->dice, "how many carved dice in each pile, a list with commas")->delimiter(',')->capture_default_str()
+        ->check(within(1, 10'000));
     physics->add_option("--only", p->only, "the engines compared with, a list with commas, of " + namesOf(peers()))->delimiter(',');
     const auto quick = std::make_shared<bool>(false);
-    physics->add_flag("--quick", *quick, "one bin of 27 balls: does it work?");
+    physics->add_flag("--quick", *quick, "one bin of 27 balls, one pile of 27 dice: does it work?");
     return [=, &app, &common] {
         readSize(*r), readSize(*e);
         if (app.count("--seed") > 0) r->bench.seed = parseSeed(common), p->seed = common.seed;
-        if (*quick) p->balls = {27};
+        if (*quick) p->balls = {27}, p->dice = {27};
         checkNames(r->bench.only, bench::figures()), checkNames(p->only, peers());
         if (e->bench.quick && effects->count("--rounds") == 0) e->bench.rounds = 5;
         if (*physics) collide(*p, common);

@@ -82,10 +82,12 @@ template <class Find>
 void Collider::addPoints(int i, const Body& a, const Pose& pose_a, int j, const Body* b, const Pose& pose_b, double margin, Find find,
                          std::vector<Contact>& io_contacts) const {
     const Pairing pair = b ? pairing(world_, a, *b) : pairing(world_, a);
+    // The circle of a ball as thick as the thinner one that has sunk in by the depth of rest.
+    const double inner = b ? std::min(a.inner, b->inner) : a.inner, patch = std::sqrt(2 * inner * restDepth(inner));
     const auto add = [&](const ManifoldPoint& p) {
         if (p.gap > margin) return;
         Contact c;
-        c.a = i, c.b = j, c.normal = p.normal, c.gap = p.gap, c.feature = p.feature, c.pairing = pair;
+        c.a = i, c.b = j, c.normal = p.normal, c.gap = p.gap, c.feature = p.feature, c.pairing = pair, c.patch = patch;
         c.arm_a = p.point - pose_a.position;
         if (b) c.arm_b = p.point - pose_b.position;
         io_contacts.push_back(c);
@@ -96,7 +98,7 @@ void Collider::addPoints(int i, const Body& a, const Pose& pose_a, int j, const 
     } else {
         // What is looked for within the margin and a little more holds until it has moved by that little.
         const std::uint32_t id_a = a.object.value, id_b = b ? b->object.value : 0;
-        const double slack = kFollowed * (b ? std::min(a.inner, b->inner) : a.inner);
+        const double slack = kFollowed * inner;
         const ManifoldMemory::Entry* entry = memory_->follow(id_a, id_b, pose_a, pose_b, a.radius, margin);
         if (!entry) {
             const Manifold found = find(margin + slack, evaluations);

@@ -17,6 +17,8 @@ template <bool drags, class Row> void start(Row& io_row) {
     const Contact& c = *io_row.contact;
     io_row.normal = c.normal, io_row.target = c.target, io_row.push = c.push, io_row.friction = c.pairing.friction, io_row.drag = c.drag;
     applyFirst<drags>(io_row, *io_row.a, *io_row.b);
+    if constexpr (drags && requires { io_row.twist_mass; })
+        if (io_row.twist != 0) io_row.twistBy(io_row.twist, *io_row.a, *io_row.b);
 }
 
 template <bool drags, class Row> void round(std::vector<Row>& io_rows, Change<double>& io_change) {
@@ -29,7 +31,10 @@ template <bool drags, class Row> void goOn(std::vector<Row>& io_rows, double sha
 
 /// Gives the impulses back to the contacts.
 template <class Row> void finish(const std::vector<Row>& rows) {
-    for (const Row& row : rows) row.contact->push = row.push, row.contact->drag = row.drag;
+    for (const Row& row : rows) {
+        row.contact->push = row.push, row.contact->drag = row.drag;
+        if constexpr (requires { row.twist; }) row.contact->twist = row.twist;
+    }
 }
 
 /// The rounds of one island.

@@ -20,8 +20,10 @@ struct Contact {
     bool flown = false;            // it is met in flight (flight.h), if it is fast
     double target = 0;             // the least normal velocity of a against b afterwards, m/s
     glm::dvec3 slip{0};            // the tangential velocity at the contact to reach if friction can, m/s
+    double patch = 0;              // m: radius of what touches, in truth; friction about the normal has it for a lever
     double push = 0;               // the normal impulse so far, N·s
     glm::dvec3 drag{0};            // the tangential one
+    double twist = 0;              // the angular one about the normal, N·m·s
 };
 
 /// The unit vector from b's centre to a's. Centres that coincide are parted in a direction that follows from their ids.

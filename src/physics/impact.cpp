@@ -70,7 +70,7 @@ bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
     if (fast && energyOf(a) + energyOf(b) > before * (1 + 1e-9)) {  // more than the rounds leave unsolved
         load(a), load(b);
         Contact alone = contacts[hardest];
-        alone.push = 0, alone.drag = {};
+        alone.push = 0, alone.drag = {}, alone.twist = 0;
         solve(bodies_, {&alone, 1}, motion_, 1, rules_.stages, counts_);
     }
     for (const int i : {a, b}) {

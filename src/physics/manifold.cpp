@@ -1,4 +1,4 @@
-#include "physics/manifold.h"
+#include "physics/candidate.h"
 
 #include <glm/geometric.hpp>
 
@@ -11,68 +11,31 @@ namespace {
 constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
-constexpr std::array kInwards{0.02, 0.08, 0.3, 0.8, 2.0};  // of the spacing: how far inside a sharp point its partner's face is read
-constexpr double kLevel = 1e-4;             // a slope that is none
-constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made
-constexpr double kSloping = 0.02;           // one that may be a flat face's
-constexpr double kBeside = 0.01;            // of the spacing
-constexpr double kTurning = 0.6;            // the same, of a point that is yet to move along its surface
-constexpr double kCone = 0.1;               // by which a contact's normal may leave the cone of the surface's own
+constexpr double kOneEdge = 0.9;            // of two surface normals' product: one edge's, or one curve's
+constexpr double kDeeper = 1e-5;            // of the spacing: a lower place is worth a point of its own
 constexpr std::uint64_t kOfOther = std::uint64_t{1} << 63;
-
-/// A surface point of one solid near the other.
-struct Candidate {
-    glm::dvec3 at{0};                       // in the world
-    double gap = 0;
-    std::uint64_t feature = 0;
-    std::size_t other = 0;
-    bool of_a = true;
-    const SurfacePoint* from = nullptr;
-    double inwards = 0;                     // where the other's field is read, m behind the point
-    glm::dvec3 normal{0};                   // towards a
-};
 
 class Search {
 public:
     Search(const Placed& a, std::span<const Placed> others, double margin, std::uint64_t& io_evaluations)
-        : a_(a), others_(others), margin_(margin), evaluations_(io_evaluations) {}
+        : a_(a), others_(others), margin_(margin), settler_(margin, io_evaluations) {}
 
     Manifold run() {
         collectOfA();
         for (std::size_t o = 0; o < others_.size(); ++o) collectOfOther(o);
         Manifold found{{}, margin_};
         if (candidates_.empty()) return found.room = std::max(margin_, room_), found;
-        for (Candidate c : outermost(touching())) {
-            if (!isSharp(c)) refine(c);
-            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
-        }
-        for (Candidate c : lowest()) {
-            c.inwards = isSharp(c) ? kInwards[0] * spacingOf(c) : 0;
-            setTo(c, otherAt(c, c.at, c.inwards));
-            if (!faces(c, kTurning)) continue;
-            refine(c);
-            if (c.gap <= margin_ && faces(c, kCone)) addApart(c, found.points);
-        }
+        for (const std::vector<Candidate>& group : outermost(touching())) addGroup(group, found.points);
+        for (Candidate& c : lowest())
+            if (settler_.settleLower(c)) addApart(c, found.points);
         return found;
     }
 
 private:
-    const Placed& asked(const Candidate& c) const { return c.of_a ? others_[c.other] : a_; }
-    const Placed& owner(const Candidate& c) const { return c.of_a ? a_ : others_[c.other]; }
-    static bool isSharp(const Candidate& c) { return c.from->sharp; }
-    double spacingOf(const Candidate& c) const { return owner(c).solid->points.spacing(); }
-
-    double fieldOf(const Placed& p, glm::dvec3 at) const { return ++evaluations_, p.solid->at(p.pose.fromWorld(at)); }
-    Slope slopeOf(const Placed& p, glm::dvec3 at) const {
-        ++evaluations_;
-        Slope s = p.solid->slopeAt(p.pose.fromWorld(at));
-        s.gradient = p.pose.rotation * s.gradient;
-        return s;
-    }
     /// Whether some point within `radius` of a place may be nearer to the solid than `reach`; if not, how far all are.
     bool near(const Placed& p, glm::dvec3 at, double radius, double between, double reach) const {
         double bound = distanceTo(p.solid->box, p.pose.fromWorld(at)) - radius;
-        if (bound <= reach) bound = fieldOf(p, at) - radius;
+        if (bound <= reach) bound = settler_.fieldOf(p, at) - radius;
         if (bound <= reach) return true;
         room_ = std::min(room_, bound - between);
         return false;
@@ -88,12 +51,14 @@ private:
         };
         a_.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
             const glm::dvec3 at = a_.pose.toWorld(point.place);
-            Candidate best{at, reach, i, 0, true, &point, 0, {}};
+            Candidate best{at, reach, i, 0, true, &a_, &a_, &point};
             bool found = false;
             for (std::size_t o = 0; o < others_.size(); ++o) {
-                if (distanceTo(others_[o].solid->box, others_[o].pose.fromWorld(at)) > best.gap) continue;
-                if (const double f = fieldOf(others_[o], at); f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
+                if (distanceTo(others_[o].solid->box, others_[o].pose.fromWorld(at)) - point.round > best.gap) continue;
+                const double f = settler_.fieldOf(others_[o], at) - point.round;
+                if (f < best.gap || (!found && f <= best.gap)) best.gap = f, best.other = o, found = true;
             }
+            best.asked = &others_[best.other];
             if (found) candidates_.push_back(best);
             else room_ = margin_;  // it is not known how much more
         });
@@ -105,66 +70,48 @@ private:
         const auto may = [&](glm::dvec3 centre, double radius) { return near(a_, other.pose.toWorld(centre), radius, between, reach); };
         other.solid->points.search(may, [&](std::uint32_t i, const SurfacePoint& point) {
             const glm::dvec3 at = other.pose.toWorld(point.place);
-            const double f = fieldOf(a_, at);
+            const double f = settler_.fieldOf(a_, at) - point.round;
             if (f > reach) room_ = std::min(room_, f - between);
-            else candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &point, 0, {}});
+            else candidates_.push_back({at, f, kOfOther | (std::uint64_t{other.number} << 32) | i, o, false, &other, &a_, &point});
         });
     }
 
-    /// The other's field at a candidate's place, read `inwards` metres inside and continued from there.
-    Slope otherAt(const Candidate& c, glm::dvec3 at, double inwards) const {
-        if (inwards == 0) return slopeOf(asked(c), at);
-        const glm::dvec3 out = inwards * (owner(c).pose.rotation * c.from->normal);
-        Slope s = slopeOf(asked(c), at - out);
-        s.distance += glm::dot(s.gradient, out);
-        return s;
-    }
-
-    /// Sets the candidate's gap and normal; says whether it is a contact. At the other's edges the field has no one slope, and
-    /// deep inside or beside them it has the wrong one: of a box just on the rim of another, or sunk into it there. So that of a
-    /// sharp point is read ever further inside until the surfaces face one another.
-    bool settle(Candidate& io_c) const {
-        for (const double share : kInwards) {
-            io_c.inwards = isSharp(io_c) ? share * spacingOf(io_c) : 0;
-            setTo(io_c, otherAt(io_c, io_c.at, io_c.inwards));
-            if (faces(io_c, kCone)) return io_c.gap <= margin_;
-            if (!isSharp(io_c)) break;
-        }
-        return false;
-    }
-
-    void setTo(Candidate& io_c, const Slope& s) const {
-        const double l = glm::length(s.gradient);
-        io_c.gap = s.distance;
-        io_c.normal = l > 1e-6 ? (io_c.of_a ? 1 / l : -1 / l) * s.gradient : glm::dvec3{0};
-    }
-
-    /// Whether the two surfaces face one another there: the corner of a box beside another box is near its side, and yet what it
-    /// stands on is below.
-    bool faces(const Candidate& c, double but) const {
-        const double facing = glm::dot(owner(c).pose.rotation * c.from->normal, c.normal);
-        return (c.of_a ? -facing : facing) >= c.from->cosine - but;
-    }
-
-    /// Those within the margin as they are, with their normals. A corner that juts out over the other's rim by a little counts as
-    /// on it: the rim's own corner may do so the other way.
     std::vector<Candidate> touching() const {
         std::vector<Candidate> found;
         for (Candidate c : candidates_)
-            if (c.gap <= margin_ + (isSharp(c) ? kBeside * spacingOf(c) : 0) && settle(c)) found.push_back(c);
+            if (settler_.settle(c)) found.push_back(c);
         return found;
     }
 
+    /// The points of one face, brought to where the other is nearest; and if none of them is the lowest, as where two rims cross
+    /// between points, that place too.
+    void addGroup(const std::vector<Candidate>& group, std::vector<ManifoldPoint>& io_points) const {
+        const Candidate* deepest = nullptr;
+        std::vector<Candidate> settled = group;
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            Candidate& c = settled[i];
+            if (!c.lowest) settler_.refine(c, Settler::Until::rim);
+            if (!settler_.isContact(c)) c = group[i];
+            if (!settler_.isContact(c)) continue;
+            addApart(c, io_points);
+            if (!deepest || c.gap < deepest->gap) deepest = &c;
+        }
+        if (!deepest) return;
+        Candidate lower = *deepest;
+        settler_.refine(lower, Settler::Until::lowest);
+        if (lower.gap < deepest->gap - kDeeper * lower.fineness() && settler_.isContact(lower)) addApart(lower, io_points);
+    }
+
     /// Of a curve, or where two edges cross, the points on either side may be beyond the margin though the curve is within it: of
-    /// those the lowest around.
+    /// those the lowest around, of each edge and face of its own.
     std::vector<Candidate> lowest() const {
         std::vector<Candidate> found;
         for (const Candidate& c : candidates_) {
             if (c.gap <= margin_) continue;
-            const double around = kAlone * spacingOf(c);
+            const double around = kAlone * c.spacing();
             const bool beaten = std::ranges::any_of(candidates_, [&](const Candidate& d) {
                 return d.of_a == c.of_a && d.other == c.other && (d.gap < c.gap || (d.gap == c.gap && d.feature < c.feature)) &&
-                       glm::length(d.at - c.at) < around;
+                       glm::length(d.at - c.at) < around && glm::dot(d.from->normal, c.from->normal) > kOneEdge;
             });
             if (!beaten) found.push_back(c);
         }
@@ -173,15 +120,15 @@ private:
 
     /// Of each group of like normals the outermost in eight directions, and the deepest if it is deeper than all of those.
     /// The directions lie in a's frame, off its axes: they choose the same points while a rests.
-    std::vector<Candidate> outermost(const std::vector<Candidate>& all) const {
-        std::vector<Candidate> chosen;
+    std::vector<std::vector<Candidate>> outermost(const std::vector<Candidate>& all) const {
+        std::vector<std::vector<Candidate>> chosen;
         std::vector<char> grouped(all.size(), 0);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (grouped[i]) continue;
             std::vector<std::size_t> group;
             for (std::size_t k = i; k < all.size(); ++k)
                 if (!grouped[k] && glm::dot(all[i].normal, all[k].normal) > kAlike) grouped[k] = 1, group.push_back(k);
-            chooseOf(all, group, chosen);
+            chooseOf(all, group, chosen.emplace_back());
         }
         return chosen;
     }
@@ -205,46 +152,10 @@ private:
         for (const std::size_t k : picked) out.push_back(all[k]);
     }
 
-    /// The way down: from a place on its own solid along the surface to where the other's field is less; its length is the
-    /// sine of the angle between the surfaces.
-    glm::dvec3 downhill(const Candidate& c, const Slope& there) const {
-        const Slope here = slopeOf(owner(c), c.at);
-        const double l2 = glm::dot(here.gradient, here.gradient);
-        return l2 > 1e-6 ? (glm::dot(there.gradient, here.gradient) / l2) * here.gradient - there.gradient : glm::dvec3{0};
-    }
-
-    /// Moves the point along its own solid's surface to where the other's field is least. A corner stays; and so does a point on
-    /// the rim of a flat place that hardly slopes: what it stands on is that rim, not the far side.
-    void refine(Candidate& io_c) const {
-        Slope there = otherAt(io_c, io_c.at, io_c.inwards);
-        glm::dvec3 along = downhill(io_c, there);
-        double stride = 0.25 * spacingOf(io_c);
-        for (int i = 0; i < 12; ++i) {
-            const double slant = glm::length(along);
-            if (slant < kLevel || slant * stride < kWorth * spacingOf(io_c)) break;
-            Candidate next = io_c;
-            next.at += (stride / slant) * along;
-            for (int round = 0; round < 2; ++round) {
-                const Slope s = slopeOf(owner(next), next.at);
-                const double n2 = glm::dot(s.gradient, s.gradient);
-                if (n2 > 1e-6) next.at -= (s.distance / n2) * s.gradient;
-            }
-            const Slope lower = otherAt(next, next.at, next.inwards);
-            if (lower.distance < there.distance - 1e-9 * stride) {
-                const glm::dvec3 on = downhill(next, lower);
-                if (slant < kSloping && glm::length(on) > 0.9 * slant) break;
-                io_c = next, there = lower, along = on;
-            } else {
-                stride *= 0.25;
-            }
-        }
-        setTo(io_c, there);
-    }
-
     /// Adds it unless there is one at its place already; of two the deeper stays.
     void addApart(const Candidate& c, std::vector<ManifoldPoint>& io_points) const {
         const ManifoldPoint point{c.at, c.normal, c.gap, c.feature, c.other};
-        const double same = kSame * std::min(spacingOf(c), a_.solid->points.spacing());
+        const double same = kSame * c.fineness();
         for (ManifoldPoint& p : io_points) {
             if (p.other != c.other || glm::length(p.point - c.at) > same || glm::dot(p.normal, c.normal) < kAlike) continue;
             if (c.gap < p.gap - 1e-9) p = point;
@@ -256,7 +167,7 @@ private:
     const Placed& a_;
     std::span<const Placed> others_;
     double margin_;
-    std::uint64_t& evaluations_;
+    Settler settler_;
     std::vector<Candidate> candidates_;
     mutable double room_ = INFINITY;        // of what was not looked at closely
 };

@@ -98,7 +98,7 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
     int of = -1;
     for (const Contact& c : contacts) {
         Contact m = c;
-        m.push = 0, m.drag = {}, m.target = 0, m.slip = {};
+        m.push = 0, m.drag = {}, m.twist = 0, m.target = 0, m.slip = {};
         if (!betweenBalls(bodies_, c)) {
             midway.push_back(m);
             continue;
@@ -165,7 +165,7 @@ PhysicsWorld::Range PhysicsWorld::keptOf(const Contact& c) const {
 }
 
 void PhysicsWorld::take(Contact& io_c, std::size_t kept, std::vector<char>& io_taken) const {
-    io_taken[kept] = 1, io_c.push += kept_[kept].push;
+    io_taken[kept] = 1, io_c.push += kept_[kept].push, io_c.twist += kept_[kept].twist;
     if (io_c.pairing.friction != 0) io_c.drag += kept_[kept].drag - glm::dot(kept_[kept].drag, io_c.normal) * io_c.normal;
 }
 
@@ -214,7 +214,7 @@ void PhysicsWorld::keep(std::span<const Contact> carried, std::span<const Contac
     std::vector<std::uint32_t> next = kept_begin_;
     each([&](const Contact& c) {
         kept_[next[at(c.a)]++] = {bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
-                                  c.arm_a, c.push, c.drag};
+                                  c.arm_a, c.push, c.drag, c.twist};
     });
 }
 

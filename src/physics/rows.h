@@ -97,6 +97,7 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
     glm::dvec3 turn_a{0}, turn_b{0};            // by a normal impulse of 1
     glm::dvec3 t{0}, u{0};                      // unit tangents
     double tt = 0, tu = 0, uu = 0;              // of the inverse of the matrix from tangential impulses to slips
+    double twist = 0, twist_mass = 0;           // N·m·s, about the normal; kg·m², 0: the contact is a point
 
     LeverRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Ends{&c, &of_a, &of_b}, arm_a(c.arm_a), arm_b(c.arm_b) {
         const Body& body_a = bodies[static_cast<std::size_t>(c.a)];
@@ -108,6 +109,7 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
             if (spins) turning_b = body_b.worldInverseInertia(), turn_b = turning_b * glm::cross(arm_b, normal);
         }
         normal_mass = 1 / glm::dot(normal, response(normal));
+        if (spins && c.patch > 0) twist = c.twist, twist_mass = 1 / glm::dot(normal, (turning_a + turning_b) * normal);
         const glm::dvec3 size = glm::abs(normal);
         t = glm::normalize(glm::cross(normal, size.x < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0})), u = glm::cross(normal, t);
         const glm::dvec3 by_t = response(t), by_u = response(u);
@@ -144,6 +146,19 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
         if constexpr (!spins) return;
         io_a.spin += turning_a * glm::cross(arm_a, impulse);
         io_b.spin -= turning_b * glm::cross(arm_b, impulse);
+    }
+    void twistBy(double impulse, Motion& io_a, Motion& io_b) const {
+        io_a.spin += turning_a * (impulse * normal);
+        io_b.spin -= turning_b * (impulse * normal);
+    }
+    /// Turns the twist towards no turning about the normal, within what friction can do on a disc that presses evenly: ⅔ of it, at
+    /// the rim. Without it a die that hangs between two points would swing for ever.
+    void turnTwist(Motion& io_a, Motion& io_b) {
+        if (twist_mass == 0) return;
+        const double limit = 2.0 / 3 * friction * push * contact->patch;
+        const double turned = std::clamp(twist - twist_mass * glm::dot(io_a.spin - io_b.spin, normal), -limit, limit);
+        twistBy(turned - twist, io_a, io_b);
+        twist = turned;
     }
     /// What slides is dragged against its slip, however hard it is to turn: a step down the slip, then onto the cone.
     glm::dvec3 dragWithin(const glm::dvec3& change, double most) const {
@@ -184,6 +199,7 @@ MB_INLINE void turn(Row& io_row, M& io_a, M& io_b, const V& slip, Change<S>& io_
     io_change.add(by * by, io_row.step * by);
     if constexpr (drags) {
         if (isSmooth(io_row.friction)) return;
+        if constexpr (requires { io_row.twist_mass; }) io_row.turnTwist(io_a, io_b);
         const V drag = io_row.dragWithin(slip - io_row.slipping(io_a, io_b), io_row.friction * io_row.push);
         io_row.drag_step = drag - io_row.drag, io_row.drag = drag;
         io_row.dragBy(io_row.drag_step, io_a, io_b);

@@ -1,5 +1,7 @@
 #include "physics/solid.h"
 
+#include "physics/closest.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -45,6 +47,17 @@ double radiusOf(const Box& box) {
 }
 
 }  // namespace
+
+/// Where hard operators alone join the leaves, the value is one leaf's, and so is the slope.
+Slope Solid::slopeAt(glm::dvec3 p) const {
+    if (blended) return slope(tree, p);
+    const std::span<const Instruction> near = grid ? grid->tapeAt(p) : std::span<const Instruction>{};
+    const Nearest<double> found = nearest<double>(tree, near.empty() ? std::span<const Instruction>(tree.program) : near, {p.x, p.y, p.z});
+    if (found.leaf < 0) return slope(tree, p);
+    const auto leaf = static_cast<std::size_t>(found.leaf);
+    const Slope own = slope(tree.leaves[leaf], p);
+    return {found.distance, static_cast<double>(side[leaf]) * own.gradient};
+}
 
 std::shared_ptr<const Grid> gridOf(const Tree& tree, Grid::Exact exact, const Grid* before) {
     const auto grid = before ? std::make_shared<Grid>(*before) : std::make_shared<Grid>(exact);

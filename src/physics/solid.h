@@ -22,7 +22,7 @@ struct Solid {
 
     /// The field's bound at p, and with its gradient.
     double at(glm::dvec3 p) const { return grid ? grid->distance(p) : distance<double>(tree, {p.x, p.y, p.z}); }
-    Slope slopeAt(glm::dvec3 p) const { return slope(tree, p); }
+    Slope slopeAt(glm::dvec3 p) const;
 };
 
 /// `with_points`: something whose shape is no ball may meet it. `before`: what stood there, whose grid saves work.

@@ -13,6 +13,7 @@ constexpr int kCells = 10;        // along the longest side of the box
 constexpr int kFewest = 3;        // along the shortest
 constexpr double kGrown = 0.37;   // of a cell, that the grid begins outside the box: no face lies between two cells
 constexpr double kSharp = 0.99;   // of a cone's cosine: less is an edge or a corner
+constexpr double kNearlyFlat = 0.99;  // the same, of a cell that may see no more than the beginning of a round
 constexpr std::uint32_t kLeafPoints = 4;
 
 /// A plane that touches the surface.
@@ -36,11 +37,11 @@ std::optional<Plane> planeNear(const Tree& tree, glm::dvec3 p, glm::dvec3 centre
 
 /// Where the planes meet, or of the points where they nearly do the one next to the mean of theirs: least squares, drawn to the
 /// mean a little, the mean then moved there.
-glm::dvec3 meetingPoint(std::span<const Plane> planes) {
+glm::dvec3 meetingPoint(std::span<const Plane> planes, double drawn = 1e-5) {
     glm::dvec3 at{0};
     glm::dmat3 normal{0};
     for (const Plane& p : planes) at += p.point / static_cast<double>(planes.size()), normal += glm::outerProduct(p.normal, p.normal);
-    const double draw = 1e-5 * static_cast<double>(planes.size());
+    const double draw = drawn * static_cast<double>(planes.size());
     for (int i = 0; i < 3; ++i) normal[i][i] += draw;
     const glm::dmat3 inverse = glm::inverse(normal);
     for (int round = 0; round < 4; ++round) {
@@ -49,6 +50,36 @@ glm::dvec3 meetingPoint(std::span<const Plane> planes) {
         at += inverse * off;
     }
     return at;
+}
+
+/// A ball that touches planes from within.
+struct Round {
+    glm::dvec3 middle{0};
+    double radius = 0;
+};
+
+/// The one that touches all of them as nearly as it can: n·(p − middle) = radius by least squares, as in meetingPoint(). Along a
+/// rounded edge it is the one next to the mean of the points.
+Round roundWithin(std::span<const Plane> planes) {
+    glm::dvec3 mean{0};
+    glm::dmat4 normal{0};
+    for (const Plane& p : planes) {
+        const glm::dvec4 row{p.normal, 1};
+        mean += p.point / static_cast<double>(planes.size()), normal += glm::outerProduct(row, row);
+    }
+    const double draw = 1e-7 * static_cast<double>(planes.size());
+    for (int i = 0; i < 4; ++i) normal[i][i] += draw;
+    const glm::dmat4 inverse = glm::inverse(normal);
+    glm::dvec4 found{0};
+    for (int round = 0; round < 6; ++round) {
+        glm::dvec4 off{0};
+        for (const Plane& p : planes) {
+            const glm::dvec4 row{p.normal, 1};
+            off += (glm::dot(p.normal, p.point - mean) - glm::dot(row, found)) * row;
+        }
+        found += inverse * off;
+    }
+    return {mean + glm::dvec3{found}, found.w};
 }
 
 /// A narrow cone that holds the planes' normals: its middle goes ever less far towards the one that is farthest from it
@@ -70,36 +101,121 @@ public:
 
     void addTo(std::vector<SurfacePoint>& out) const {
         std::vector<Plane> front, back;  // two sides of a thin wall
-        for (int k = 0; k < 9; ++k) {
-            const glm::dvec3 corner{k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1};
-            const auto plane = planeNear(tree_, k < 8 ? centre_ + 0.9 * corner * half_ : centre_, centre_, 1.1 * half_, on_);
-            if (!plane) continue;
-            const bool behind = !front.empty() && glm::dot(plane->normal, front[0].normal) < -0.5;
-            (behind ? back : front).push_back(*plane);
+        for (const Plane& plane : planes(centre_, 1)) {
+            const bool behind = !front.empty() && glm::dot(plane.normal, front[0].normal) < -0.5;
+            (behind ? back : front).push_back(plane);
         }
         addSide(front, out), addSide(back, out);
     }
 
 private:
+    /// The surface's planes around a place, as far as that many halves of the cell.
+    std::vector<Plane> planes(glm::dvec3 around, double halves) const {
+        std::vector<Plane> found;
+        for (int k = 0; k < 9; ++k) {
+            const glm::dvec3 corner{k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1};
+            const glm::dvec3 from = k < 8 ? around + (0.9 * halves) * corner * half_ : around;
+            if (const auto plane = planeNear(tree_, from, around, (1.1 * halves) * half_, on_)) found.push_back(*plane);
+        }
+        return found;
+    }
+
+    /// Whether every plane has the others' points in front of it.
+    bool isHollow(std::span<const Plane> planes) const {
+        double most = 0;
+        for (const Plane& p : planes) {
+            for (const Plane& q : planes) {
+                const double above = glm::dot(p.normal, q.point - p.point);
+                if (above < -10 * on_) return false;
+                most = std::max(most, above);
+            }
+        }
+        return most > 1000 * on_;
+    }
+
+    /// Sets the point to where the planes meet, if the surface does: at once where they are flat; of a bent edge, as of a hole's
+    /// rim, the planes ever nearer to it meet ever nearer to it.
+    bool setMeeting(std::span<const Plane> planes, SurfacePoint& io_point) const {
+        std::vector<Plane> near(planes.begin(), planes.end());
+        glm::dvec3 meet = meetingPoint(near);
+        if (!isOn(meet) || !isWithin(meet)) {
+            if (io_point.cosine >= kSharp) return false;
+            meet = meetingPoint(near, 0.1);
+            for (double halves = 0.5; !isOn(meet); halves *= 0.5) {
+                near = this->planes(meet, halves);
+                if (halves < 1e-8 || near.size() < 2) return false;
+                meet = meetingPoint(near, 0.1 * halves * halves);
+            }
+        }
+        SurfacePoint found;
+        setCone(near, found);
+        if (io_point.cosine < kSharp && found.cosine >= kSharp) return false;
+        found.place = meet, found.sharp = found.cosine < kSharp;
+        if (found.sharp) found.along = edgeOf(near);
+        io_point = found;
+        return true;
+    }
+
+    /// The direction of the edge where the planes meet; 0: they meet in a corner.
+    static glm::dvec3 edgeOf(std::span<const Plane> planes) {
+        glm::dvec3 along{0};
+        for (const Plane& p : planes) {
+            const glm::dvec3 cross = glm::cross(planes[0].normal, p.normal);
+            if (glm::dot(cross, cross) > glm::dot(along, along)) along = cross;
+        }
+        if (!(glm::length(along) > 0.1)) return glm::dvec3{0};
+        along = glm::normalize(along);
+        for (const Plane& p : planes)
+            if (std::fabs(glm::dot(p.normal, along)) > 0.1) return glm::dvec3{0};
+        return along;
+    }
+
     void addSide(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
-        if (planes.empty()) return;
+        if (planes.empty() || isHollow(planes)) return;
         SurfacePoint found;
         setCone(planes, found);
         if (found.cosine > 1 - 1e-9) return;  // flat
-        const glm::dvec3 meet = meetingPoint(planes);
-        const glm::dvec3 off = glm::abs(meet - centre_);
-        const bool within = off.x <= half_.x && off.y <= half_.y && off.z <= half_.z;
-        if (within && std::fabs(distance<double>(tree_, {meet.x, meet.y, meet.z})) <= 10 * on_) {
-            found.place = meet, found.sharp = found.cosine < kSharp;
-            return out.push_back(found);
-        }
+        if (setMeeting(planes, found) && isWithin(found.place)) return out.push_back(found);
         // Of a curve, the point nearest to the middle of those found, if it is this cell's.
         glm::dvec3 middle{0};
         for (const Plane& p : planes) middle += p.point / static_cast<double>(planes.size());
         const auto plane = planeNear(tree_, middle, centre_, half_, on_);
         if (!plane) return;
         found.place = plane->point;
+        std::vector<Plane> all(planes.begin(), planes.end());
+        all.push_back(*plane);
+        if (const auto round = roundOf(all, found.normal); round && isWithin(round->middle + round->radius * found.normal))
+            found.place = round->middle, found.round = round->radius;
+        else if (found.cosine > kNearlyFlat && belongsToNeighbour(planes)) return;
         out.push_back(found);
+    }
+
+    bool isOn(glm::dvec3 p) const { return std::fabs(distance<double>(tree_, {p.x, p.y, p.z})) <= 10 * on_; }
+    bool isWithin(glm::dvec3 p) const {
+        const glm::dvec3 off = glm::abs(p - centre_);
+        return off.x <= half_.x && off.y <= half_.y && off.z <= half_.z;
+    }
+
+    /// Whether what is curved a little here is the beginning of a round whose middle another cell has.
+    bool belongsToNeighbour(std::span<const Plane> own) const {
+        std::vector<Plane> around = planes(centre_, 2);
+        around.insert(around.end(), own.begin(), own.end());
+        SurfacePoint wide;
+        setCone(around, wide);
+        const auto round = roundOf(around, wide.normal);
+        return round && wide.cosine < kNearlyFlat && !isWithin(round->middle + round->radius * wide.normal);
+    }
+
+    /// The round that all the planes touch, if its surface is the shape's.
+    std::optional<Round> roundOf(std::span<const Plane> planes, glm::dvec3 normal) const {
+        const Round round = roundWithin(planes);
+        if (round.radius > 2 * glm::length(half_)) return std::nullopt;  // no edge: points far from their surface are hard to find
+        const double off = 100 * on_;
+        const auto differs = [&](glm::dvec3 p, double f) { return !(std::fabs(distance<double>(tree_, {p.x, p.y, p.z}) - f) <= off); };
+        if (!(round.radius > 0) || differs(round.middle, -round.radius) || differs(round.middle + round.radius * normal, 0)) return std::nullopt;
+        for (const Plane& p : planes)
+            if (!(std::fabs(glm::dot(p.normal, p.point - round.middle) - round.radius) <= off)) return std::nullopt;
+        return round;
     }
 
     const Tree& tree_;
@@ -120,7 +236,7 @@ void SurfacePoints::build(std::uint32_t first, std::uint32_t count) {
     glm::dvec3 lo = begin->place, hi = lo;
     for (auto p = begin; p != end; ++p) lo = glm::min(lo, p->place), hi = glm::max(hi, p->place);
     Node node{0.5 * (lo + hi), 0, first, count, 0};
-    for (auto p = begin; p != end; ++p) node.radius = std::max(node.radius, glm::length(p->place - node.centre));
+    for (auto p = begin; p != end; ++p) node.radius = std::max(node.radius, glm::length(p->place - node.centre) + p->round);
     nodes_.push_back(node);
     if (count > kLeafPoints) {
         const glm::dvec3 size = hi - lo;

@@ -1,7 +1,7 @@
 #pragma once
 // Points on a shape's surface from which its contacts are looked for: every corner, every edge at intervals, and where
 // the surface is curved, every cell of it. Flat places have none: a flat face meets another shape where the other has a
-// corner, an edge or a curve, or at the face's own rim.
+// corner, an edge or a curve, or at the face's own rim. Hollows have none either: what touches them from within is rounder there.
 #include "core/sdf/tree.h"
 
 #include <span>
@@ -9,19 +9,24 @@
 
 namespace mb {
 
-/// A point of the surface and the normals it has there: all lie in a cone, of a corner a wide one.
+/// A point of the surface and the normals it has there: all lie in a cone, of a corner a wide one. Where an edge or a corner is
+/// rounded, `place` is the middle of the round instead: the surface is `round` from it along each of the cone's normals.
 struct SurfacePoint {
     glm::dvec3 place{0};
     glm::dvec3 normal{0};              // unit, the middle of the cone, out of the shape
     double cosine = 1;                 // of the cone's half angle
     bool sharp = false;                // an edge or a corner: all of the cone's normals are this one point's
+    glm::dvec3 along{0};               // unit, of an edge: its direction; 0: there is none
+    double round = 0;                  // m: radius of the round, at most the spacing; 0: none is known
+
+    glm::dvec3 onSurface() const { return place + round * normal; }
 };
 
 class SurfacePoints {
 public:
     struct Node {
         glm::dvec3 centre{0};
-        double radius = 0;             // m: holds the node's points
+        double radius = 0;             // m: holds the surface at the node's points
         std::uint32_t first = 0, count = 0;  // its points
         std::uint32_t skip = 0;        // the node after it and all below it
     };

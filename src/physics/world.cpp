@@ -240,6 +240,7 @@ std::uint64_t PhysicsWorld::stateHash() const {
     for (const Kept& k : kept_) {
         hash.add(std::uint64_t{k.a}), hash.add(std::uint64_t{k.b});
         hash.add(k.feature), hash.add(k.normal), hash.add(k.arm), hash.add(k.push), hash.add(k.drag);
+        if (k.twist != 0) hash.add(k.twist);  // of shapes
     }
     memory_.addTo(hash);
     return hash.value();

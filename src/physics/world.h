@@ -102,6 +102,7 @@ private:
         glm::dvec3 normal{0}, arm{0};
         double push = 0;
         glm::dvec3 drag{0};
+        double twist = 0;
     };
 
     /// Memory of a part that the next uses again. A copy of a world has its own.

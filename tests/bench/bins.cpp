@@ -69,15 +69,21 @@ TEST_CASE("each engine begins with the same balls, steps them, and keeps them in
 
 TEST_CASE("a line an engine, the peers' with a ratio, and what is not there is said") {
     PhysicsOptions options;
-    options.balls = {8};
+    options.balls = {8}, options.dice = {8};
     std::vector<Json> lines;
     PhysicsBench bench{options, [&](const Json& line) { lines.push_back(line); }, [](const std::string&) {}};
     runPhysics(bench);
-    REQUIRE(lines.size() == 1 + binEngines().size());
+    REQUIRE(lines.size() == 2 + binEngines().size());
     CHECK(lines[0]["figure"] == "about");
     for (const Json& line : lines) {
         if (line["figure"] == "about" || line.contains("skipped")) {
             CHECK(inWords(line).empty());
+            continue;
+        }
+        if (line["figure"] == "pile") {
+            CHECK(line["asleep"] == 8);
+            CHECK(line["overlap"]["largest"].get<double>() < 1e-3);
+            CHECK(inWords(line).find("8 of them asleep") != std::string::npos);
             continue;
         }
         CHECK(line["outside"] == 0);

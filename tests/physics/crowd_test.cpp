@@ -66,6 +66,34 @@ TEST_CASE("equal runs have equal states, and so has a run that was copied half-w
     CHECK(a.stateText() == "46031c262a38194a");
 }
 
+TEST_CASE("60 carved dice poured into a tray come to rest, and are not in one another") {
+    Scene s = scene(1.0 / 120, 0.2, 0.5);
+    add(s, "subtract", {}, {});
+    add(s, "box", {0, 0.8, 0}, {4.2, 2, 4.2, 0}, 0);
+    add(s, "box", {0, 1, 0}, {3.8, 2, 3.8, 0}, 0);
+    Random random(2);
+    for (int i = 0; i < 60; ++i) {
+        const double x = random.in(-0.05, 0.05), z = random.in(-0.05, 0.05), turn_x = random.in(0, 90), turn_y = random.in(0, 90);
+        const int die = static_cast<int>(s.objects.size());
+        Object& o = add(s, "subtract", {0.9 * (i % 4 - 1.5) + x, 0.6 + 0.9 * (i / 16), 0.9 * (i / 4 % 4 - 1.5) + z}, {});
+        o.density = 900, o.rot = {turn_x, turn_y, 0};
+        add(s, "box", {}, {0.5, 0.5, 0.5, 0.04}, die);
+        for (const glm::dvec3 at : {glm::dvec3{0, 0.25, 0}, {0.25, 0.1, 0.1}, {0.25, -0.1, -0.1}, {-0.25, 0.1, 0.1}, {-0.25, 0, 0}, {-0.25, -0.1, -0.1}})
+            add(s, "sphere", at, {0.05}, die);
+    }
+    PhysicsWorld w(s);
+    double deepest = 0;
+    while (w.awake() > 0 && w.time_s() < 12) {
+        w.step();
+        if (w.steps() % 60 == 0) deepest = std::max(deepest, w.maxPenetration());
+    }
+    CHECK(w.awake() == 0);
+    CHECK(w.bodies().size() == 60);
+    CHECK(w.maxPenetration() < 1e-3);
+    CHECK(deepest < 5e-3);  // while they still fall: at 7 m/s one comes 29 mm a part
+    MESSAGE("dice: asleep at ", w.time_s(), " s, deepest ", w.maxPenetration(), " then, ", deepest, " on the way");
+}
+
 TEST_CASE("a box falls, tumbles and comes to lie on a face; an infinite body does not move") {
     Scene s = scene(1.0 / 120, 0, 0.5);
     floor(s);
@@ -91,5 +119,5 @@ TEST_CASE("shapes come to the same state on every compiler and at every level of
     REQUIRE(dice.ok());
     PhysicsWorld w(dice.scene);
     for (int i = 0; i < 150; ++i) w.step();
-    CHECK(w.stateText() == "6de1dc3fe0ed81ad");
+    CHECK(w.stateText() == "77493898a66cfed2");
 }

@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtx/quaternion.hpp>
 
 using namespace mb;
 using namespace mb::test;
@@ -16,6 +18,19 @@ Solid solidOf(std::string_view type, std::initializer_list<double> numbers) {
     Scene s;
     add(s, type, {}, numbers);
     return makeSolid(makeTree(s), true);
+}
+
+/// How far apart two boxes are, sizes given by their halves: each turn takes the nearest point of the one to that of the other
+/// (Cheney, Goldstein, "Proximity Maps for Convex Sets", 1959). 0: they overlap.
+double boxesApart(glm::dvec3 half, const Pose& a, const Pose& b) {
+    glm::dvec3 x = a.position, y = b.position;
+    const auto nearest = [&](const Pose& box, glm::dvec3 p) { return box.toWorld(glm::clamp(box.fromWorld(p), -half, half)); };
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::dvec3 last = x;
+        y = nearest(b, x), x = nearest(a, y);
+        if (glm::length(x - last) < 1e-12) break;
+    }
+    return glm::length(x - y);
 }
 
 Pose turnedBy(glm::dvec3 position, glm::dvec3 turn) { return {position, glm::mat3_cast(turned({1, 0, 0, 0}, turn, 1))}; }
@@ -42,4 +57,109 @@ TEST_CASE("a box upon an equal one touches it at four corners, whatever the last
         }
         CHECK(points.size() <= 12);
     }
+}
+
+TEST_CASE("of two rounded boxes in any position the nearest place is found") {
+    constexpr double kRound = 0.04, kHalf = 0.25, kMargin = 2e-3;
+    const Solid box = solidOf("box", {2 * kHalf, 2 * kHalf, 2 * kHalf, kRound});
+    const glm::dvec3 core{kHalf - kRound};
+    Random random(5);
+    const auto some = [&] { double x = random.in(-1, 1), y = random.in(-1, 1), z = random.in(-1, 1); return glm::dvec3{x, y, z}; };
+    double worst = 0;
+    int missed = 0;
+    for (int i = 0; i < 1000; ++i) {
+        // One comes towards the other until they overlap by up to a millimetre, or not quite touch.
+        const double wanted = random.in(-1e-3, 1e-3);
+        const Pose b = turnedBy({}, 3.0 * some());
+        Pose a = turnedBy({}, 3.0 * some());
+        if (i % 4 == 0) a.rotation = b.rotation * glm::mat3_cast(turned({1, 0, 0, 0}, 0.02 * some(), 1));  // nearly parallel faces and edges
+        const glm::dvec3 way = glm::normalize(some()), aside = 0.2 * some();
+        double near = 0, far = 1;
+        for (int k = 0; k < 60; ++k) {
+            const double mid = 0.5 * (near + far);
+            a.position = aside + mid * way;
+            (boxesApart(core, a, b) - 2 * kRound < wanted ? near : far) = mid;
+        }
+        const double gap = boxesApart(core, a, b) - 2 * kRound;
+        const Placed pa{&box, a, 0}, pb{&box, b, 0};
+        std::uint64_t evaluations = 0;
+        double found = INFINITY;
+        for (const ManifoldPoint& p : manifold(pa, {&pb, 1}, kMargin, evaluations).points) found = std::min(found, p.gap);
+        CAPTURE(i);
+        CAPTURE(gap);
+        CAPTURE(found);
+        if (found == INFINITY) ++missed;
+        else worst = std::max(worst, std::fabs(found - gap));
+        CHECK(std::fabs(found - gap) < 1e-4);
+    }
+    MESSAGE("worst ", worst, ", missed ", missed);
+}
+
+TEST_CASE("a corner in a pip touches its rim where it is deepest") {
+    // The rim is a circle, and the rounded box is convex with an exact distance: its least value on the circle is the depth.
+    constexpr double kHalf = 0.25, kPip = 0.05;
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "box", {}, {2 * kHalf, 2 * kHalf, 2 * kHalf, 0.04}, 0);
+    add(s, "sphere", {0, kHalf, 0}, {kPip}, 0);
+    const Solid die = makeSolid(makeTree(s), true), box = solidOf("box", {2 * kHalf, 2 * kHalf, 2 * kHalf, 0.04});
+    const Placed b{&die, {}, 0};
+    const glm::dmat3 corner_down = glm::mat3_cast(glm::rotation(glm::normalize(glm::dvec3{1, 1, 1}), glm::dvec3{0, -1, 0}));
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        const double x = random.in(-1, 1), y = random.in(-3, 3), z = random.in(-1, 1);
+        Placed a{&box, turnedBy({}, {0, y, 0}), 0};
+        a.pose.rotation = turnedBy({}, {0.4 * x, 0, 0.4 * z}).rotation * a.pose.rotation * corner_down;
+        const double aside_x = random.in(-0.02, 0.02), aside_z = random.in(-0.02, 0.02), wanted = random.in(-2e-3, -2e-4);
+        const auto depth = [&] {
+            double least = INFINITY;
+            for (int k = 0; k < 2000; ++k) {
+                const double turn = 2 * kPi * k / 2000;
+                least = std::min(least, box.at(a.pose.fromWorld({kPip * std::cos(turn), kHalf, kPip * std::sin(turn)})));
+            }
+            return least;
+        };
+        const glm::dvec3 tip = a.pose.rotation * glm::dvec3{0.23};
+        double low = 0.1, high = 0.5;
+        for (int k = 0; k < 30; ++k) {
+            a.pose.position = glm::dvec3{aside_x, 0.5 * (low + high), aside_z} - tip;
+            (depth() < wanted ? low : high) = 0.5 * (low + high);
+        }
+        const double deepest = depth();
+        std::uint64_t evaluations = 0;
+        double found = INFINITY;
+        for (const ManifoldPoint& p : manifold(a, {&b, 1}, 1e-3, evaluations).points) found = std::min(found, p.gap);
+        CAPTURE(i);
+        CAPTURE(deepest);
+        CHECK(found <= deepest + 2e-4);
+        CHECK(found >= -0.05);
+    }
+}
+
+TEST_CASE("every contact's place is on the surface it belongs to, at a tray's rim too") {
+    // Above its opening the tray's distance is a bound that is 0 nowhere: what is moved along the rim and past it finds no surface.
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "box", {0, 1.4, 0}, {6, 3, 6, 0}, 0);
+    add(s, "box", {0, 1.6, 0}, {5.6, 3, 5.6, 0}, 0);
+    const Solid tray = makeSolid(makeTree(s), true), die = solidOf("box", {0.5, 0.5, 0.5, 0.04});
+    const Placed b{&tray, {}, 0};
+    Random random(4);
+    int touching = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double x = random.in(1.9, 3.1), y = random.in(2.8, 3.2), z = random.in(-3, 3), turn_x = random.in(-3, 3), turn_z = random.in(-3, 3);
+        const Placed a{&die, turnedBy({x, y, z}, {turn_x, 0, turn_z}), 0};
+        std::uint64_t evaluations = 0;
+        const Manifold found = manifold(a, {&b, 1}, 1e-3, evaluations);
+        touching += !found.points.empty();
+        for (const ManifoldPoint& p : found.points) {
+            const bool of_tray = (p.feature >> 63) != 0;
+            const double off = of_tray ? tray.at(p.point) : die.at(a.pose.fromWorld(p.point));
+            CAPTURE(i);
+            CAPTURE(of_tray);
+            CHECK(std::fabs(off) < 1e-5);
+            if (of_tray) CHECK(die.at(a.pose.fromWorld(p.point)) < 2e-3);
+        }
+    }
+    CHECK(touching > 200);
 }

@@ -242,3 +242,20 @@ TEST_CASE("a grid of what does not move follows a change, and copies keep their 
     REQUIRE(a.size() == b.size());
     for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].point == b[k].point);
 }
+
+TEST_CASE("a capsule that spins on its end is slowed by the friction of a small disc") {
+    // Two thirds of friction times weight at the rim of the disc: a ball as thick as the capsule has it when sunk in by the depth of rest.
+    for (const double friction : {0.0, 0.2, 0.5}) {
+        Scene s = scene(1.0 / 120, 0, friction);
+        floor(s);
+        Object& o = s.objects[bodyOf(s, "capsule", {0, 0.2, 0}, 0.2)];
+        o.spin = {0, 20, 0};
+        PhysicsWorld w(s);
+        const Body& b = w.bodies()[0];
+        run(w, 0.2);
+        const double patch = std::sqrt(2 * b.inner * restDepth(b.inner));
+        const double torque = 2.0 / 3 * friction * b.mass() * kG * patch;
+        CAPTURE(friction);
+        CHECK(std::fabs(20 - b.spin.y - 0.2 * torque * b.inverse_inertia[1][1]) < 1e-3 + 0.02 * (20 - b.spin.y));
+    }
+}
