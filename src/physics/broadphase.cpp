@@ -66,7 +66,7 @@ public:
             add(e, e.row, i + 1, io_pairs);
             for (std::size_t k = 0; k < kRows.size(); ++k) {
                 const std::uint64_t row = e.row + kRows[k];
-                while (first[k] < entries_.size() && isBefore(entries_[first[k]], row, e)) ++first[k];
+                while (first[k] < entries_.size() && isBefore(entries_[first[k]], row, e.x() - apart(largest_, e.x()))) ++first[k];
                 add(e, row, first[k], io_pairs);
             }
         }
@@ -76,7 +76,8 @@ public:
         const std::uint64_t middle = rowOf(finer.reach.centre);
         for (const std::uint64_t layer : {middle - kLayer, middle, middle + kLayer})
             for (const std::uint64_t row : {layer - 1, layer, layer + 1}) {
-                const auto first = std::partition_point(entries_.begin(), entries_.end(), [&](const Entry& e) { return isBefore(e, row, finer); });
+                const double begin = finer.x() - apart(finer.reach.reach, finer.x());
+                const auto first = std::partition_point(entries_.begin(), entries_.end(), [&](const Entry& e) { return isBefore(e, row, begin); });
                 add(finer, row, static_cast<std::size_t>(first - entries_.begin()), io_pairs);
             }
     }
@@ -85,15 +86,12 @@ public:
 private:
     static constexpr std::uint64_t kLayer = std::uint64_t{1} << 31;
 
-    /// How far apart two may lie along an axis and overlap, of which this one's reach is given; rounding included.
-    double apart(const Entry& e) const { return (e.reach.reach + largest_) * (1 + 1e-9) + 1e-12 * std::fabs(e.x()); }
-    /// Whether an entry comes before all of that row that may overlap e.
-    bool isBefore(const Entry& entry, std::uint64_t row, const Entry& e) const {
-        return entry.row < row || (entry.row == row && entry.x() < e.x() - apart(e));
-    }
+    /// How far from x one of the level may lie to overlap one of that reach at x; rounding included.
+    double apart(double reach, double x) const { return (reach + largest_) * (1 + 1e-9) + 1e-12 * std::fabs(x); }
+    static bool isBefore(const Entry& entry, std::uint64_t row, double x) { return entry.row < row || (entry.row == row && entry.x() < x); }
     /// Those of a row, from the first that may overlap e.
     void add(const Entry& e, std::uint64_t row, std::size_t first, Pairs& io_pairs) const {
-        const double last = e.x() + apart(e);
+        const double last = e.x() + apart(e.reach.reach, e.x());
         std::size_t end = first;
         while (end < entries_.size() && entries_[end].row == row && entries_[end].x() <= last) ++end;
         io_pairs.expect(end - first);
