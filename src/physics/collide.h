@@ -13,7 +13,7 @@ inline double restDepth(double inner) { return std::min(1e-4, 1e-3 * inner); }
 class Collider {
 public:
     /// `memory`: what is found is followed from call to call; none: it is looked for each time.
-    Collider(const World& world, const StaticField& field, StepCounts& io_counts, ManifoldMemory* memory = nullptr)
+    Collider(const World& world, const StaticField& field, StepCounts& io_counts, ManifoldMemory::Share* memory = nullptr)
         : world_(world), field_(field), counts_(io_counts), memory_(memory) {}
 
     /// Appends the contacts that are nearer than the margin. `near`: what is known of the statics around the body. A ball's
@@ -34,7 +34,7 @@ private:
     const World& world_;
     const StaticField& field_;
     StepCounts& counts_;
-    ManifoldMemory* memory_;
+    ManifoldMemory::Share* memory_;
 };
 
 }  // namespace mb

@@ -255,11 +255,20 @@ GapAt Flight::shapeGap(std::size_t i, std::size_t j, double t, double margin) {
     return g;
 }
 
+/// How deep a slow shape is let in, m. Where it keeps meeting something slowly, as between the edges it rests on, ever deeper: at such
+/// speed it does not get far within the part, and the next moves it out.
+double Flight::depthOf(std::size_t i, std::size_t j) const {
+    constexpr double kShallow = 0.05;  // of half the thickness; and where that is not sure, no deeper
+    const double inner = std::min(bodies_[i].inner, bodies_[j].inner);
+    if (rules_.bounce * rules_.duration > kShallow * inner) return restDepth(inner);
+    return std::ldexp(restDepth(inner), std::min(2 * std::max(paths_[i].slow, paths_[j].slow), 16));
+}
+
 void Flight::expectStaticOfShape(std::size_t i) {
     const Body& b = bodies_[i];
     if (!metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration, speed = fastest(i), stride = kNear * b.inner;
-    const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(b.inner), kShapeNoise};
+    const ApproachLimits limits{speed, stride, rules_.bounce, depthOf(i, i), kShapeNoise};
     if (rules_.proofs && cannotReach(field_.room(positionAt(i, from), b.radius), to - from, limits, b.radius)) return;
     ++counts_.searches;
     const Meeting m = firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits);
@@ -267,19 +276,19 @@ void Flight::expectStaticOfShape(std::size_t i) {
     if (m.found || m.stuck) events_.push({m.time, static_cast<int>(i), kStatic, paths_[i].version, 0});
 }
 
-void Flight::expectPairOfShapes(std::size_t i, std::size_t j) {
+void Flight::expectPairOfShapes(std::size_t of_i, std::size_t of_j) {
+    const auto [i, j] = std::minmax(of_i, of_j);  // as the impact will see them
     const Body &x = bodies_[i], &y = bodies_[j];
     if (!metInFlight(x, y, rules_)) return;
     const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration, inner = std::min(x.inner, y.inner);
-    const ApproachLimits limits{fastest(i) + fastest(j), kNear * inner, rules_.bounce, restDepth(inner), kShapeNoise};
+    const ApproachLimits limits{fastest(i) + fastest(j), kNear * inner, rules_.bounce, depthOf(i, j), kShapeNoise};
     const double room = glm::length(positionAt(i, from) - positionAt(j, from)) - x.radius - y.radius;
     ++counts_.body_gaps;
     if (rules_.proofs && cannotReach(room - 1e-9 * (x.radius + y.radius), to - from, limits, inner)) return;
     ++counts_.searches;
-    const Meeting m = firstMeeting([&](double t) { return shapeGap(i, j, t, limits.stride); }, from, to, limits);
-    if (!m.found) return;
-    const auto [a, b] = std::minmax(i, j);
-    events_.push({m.time, static_cast<int>(a), static_cast<int>(b), paths_[a].version, paths_[b].version});
+    const std::size_t first = i, second = j;
+    const Meeting m = firstMeeting([&](double t) { return shapeGap(first, second, t, limits.stride); }, from, to, limits);
+    if (m.found) events_.push({m.time, static_cast<int>(i), static_cast<int>(j), paths_[i].version, paths_[j].version});
 }
 
 void Flight::expectAll(std::size_t i) {

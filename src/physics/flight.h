@@ -58,7 +58,7 @@ private:
         double time = 0;      // that the body's position, velocity and spin are of
         glm::dvec3 acceleration{0}, turning{0};
         std::uint32_t version = 0;
-        int events = 0;
+        int events = 0, slow = 0;  // impacts so far; those of them that nothing approached fast at
         bool held = false;
     };
     struct Event {
@@ -78,6 +78,7 @@ private:
     Pose poseAt(std::size_t i, double t) const;
     Motion motionAt(std::size_t i, double t) const;
     double fastest(std::size_t i) const;
+    double depthOf(std::size_t i, std::size_t j) const;
     GapAt shapeGap(std::size_t i, std::size_t j, double t, double margin);
     glm::dvec3 velocityAt(std::size_t i, double t) const;
     void advance(std::size_t i, double t);
@@ -91,7 +92,7 @@ private:
     // At an impact (impact.cpp).
     void meet(const Event& event);
     std::vector<Contact> contactsOf(int a, int b);
-    void addStaticContacts(int i, std::vector<Contact>& io_contacts);
+    void addStaticContacts(int i, bool alone, std::vector<Contact>& io_contacts);
     bool bounceApart(std::vector<Contact>& contacts, int a, int b);
     double energyOf(int i) const;
     glm::dvec3 accelerationAt(std::size_t i, const glm::dvec3& arm) const;

@@ -10,21 +10,25 @@ namespace mb {
 namespace {
 constexpr int kImpactRounds = 15;
 
-/// Of the contacts from `first` on keeps those nearer than the depth. They were looked for as the search for the impact looked, so
-/// that what it found is among them.
-void dropApart(std::vector<Contact>& io_contacts, std::size_t first, double depth) {
-    const auto apart = [&](const Contact& c) { return c.gap > depth; };
-    io_contacts.erase(std::remove_if(io_contacts.begin() + static_cast<std::ptrdiff_t>(first), io_contacts.end(), apart), io_contacts.end());
+/// Of the contacts from `first` on keeps those nearer than the depth; if there are none, and `any`, those as near as the nearest: what
+/// is met suddenly, as a corner that comes round an edge, is met a little before. They were looked for as the search for the impact
+/// looked, so that what it found is among them.
+void dropApart(std::vector<Contact>& io_contacts, std::size_t first, double depth, bool any) {
+    const auto begin = io_contacts.begin() + static_cast<std::ptrdiff_t>(first);
+    if (begin == io_contacts.end()) return;
+    const double nearest = std::min_element(begin, io_contacts.end(), [](const Contact& a, const Contact& b) { return a.gap < b.gap; })->gap;
+    const double most = any && nearest > depth ? nearest + depth : depth;
+    io_contacts.erase(std::remove_if(begin, io_contacts.end(), [&](const Contact& c) { return c.gap > most; }), io_contacts.end());
 }
 }  // namespace
 
-void Flight::addStaticContacts(int i, std::vector<Contact>& io_contacts) {
+void Flight::addStaticContacts(int i, bool alone, std::vector<Contact>& io_contacts) {
     const Body& body = bodies_[static_cast<std::size_t>(i)];
     NearStatics& near = near_[static_cast<std::size_t>(i)];
     if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.inner)) return;
     const std::size_t before = io_contacts.size();
     collider_.withStatics(i, body, body.pose(), kNear * body.inner, near, io_contacts);
-    dropApart(io_contacts, before, restDepth(body.inner));
+    dropApart(io_contacts, before, restDepth(body.inner), alone && !body.isBall());
 }
 
 /// The contacts of one or two balls at this moment: between the two, and with what does not move.
@@ -32,7 +36,7 @@ std::vector<Contact> Flight::contactsOf(int a, int b) {
     std::vector<Contact> contacts;
     if (has(Stage::static_contacts))
         for (const int i : {a, b})
-            if (i != kStatic) addStaticContacts(i, contacts);
+            if (i != kStatic) addStaticContacts(i, b == kStatic, contacts);
     if (b == kStatic) return contacts;
     const Body &x = bodies_[static_cast<std::size_t>(a)], &y = bodies_[static_cast<std::size_t>(b)];
     const double inner = std::min(x.inner, y.inner);
@@ -40,7 +44,7 @@ std::vector<Contact> Flight::contactsOf(int a, int b) {
     // That balls meet is known; their gap is 0 but for rounding.
     const bool balls = x.isBall() && y.isBall();
     collider_.between(a, x, x.pose(), b, y, y.pose(), balls ? INFINITY : kNear * inner, contacts);
-    if (!balls) dropApart(contacts, before, restDepth(inner));
+    if (!balls) dropApart(contacts, before, restDepth(inner), true);
     return contacts;
 }
 
@@ -146,6 +150,7 @@ void Flight::meet(const Event& event) {
         if (i == kStatic) continue;
         const auto k = static_cast<std::size_t>(i);
         paths_[k].turning = {};
+        if (!fast) ++paths_[k].slow;
         if (fast) paths_[k].acceleration = rules_.world.fall();
         if (waits || contacts.empty() || paths_[k].events > kEventsAPart) hold(k);
     }

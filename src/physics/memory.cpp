@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace mb {
@@ -37,28 +38,32 @@ ManifoldMemory::Entry* ManifoldMemory::lastOf(std::uint32_t a, std::uint32_t b) 
     return found != last_.end() && found->a == a && found->b == b ? &*found : nullptr;
 }
 
-const ManifoldMemory::Entry* ManifoldMemory::follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius,
+void ManifoldMemory::add(Share&& share) {
+    now_.insert(now_.end(), std::make_move_iterator(share.found_.begin()), std::make_move_iterator(share.found_.end()));
+}
+
+const ManifoldMemory::Entry* ManifoldMemory::Share::follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius,
                                                     double margin) {
-    Entry* last = lastOf(a, b);
+    Entry* last = memory_->lastOf(a, b);
     if (!last) return nullptr;
     const double moved = movedBetween(last->found, seenFrom(pose_b, pose_a), radius);
     if (moved > last->slack || margin + moved > last->reach) return nullptr;
-    now_.push_back(std::move(*last));
-    return &now_.back();
+    found_.push_back(std::move(*last));
+    return &found_.back();
 }
 
-void ManifoldMemory::keep(std::uint32_t a, std::uint32_t b) {
-    if (Entry* last = lastOf(a, b)) now_.push_back(std::move(*last));
+void ManifoldMemory::Share::keep(std::uint32_t a, std::uint32_t b) {
+    if (Entry* last = memory_->lastOf(a, b)) found_.push_back(std::move(*last));
 }
 
-const ManifoldMemory::Entry& ManifoldMemory::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack,
+const ManifoldMemory::Entry& ManifoldMemory::Share::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack,
                                                       const Manifold& found) {
     // Where there are no points, none comes before the room is used up, however far that is.
     Entry entry{a, b, seenFrom(pose_b, pose_a), found.points.empty() ? std::max(slack, found.room) : slack, found.room, {}};
     for (const ManifoldPoint& p : found.points)
         entry.points.push_back({pose_a.fromWorld(p.point), pose_b.fromWorld(p.point - p.gap * p.normal), p.normal * pose_b.rotation, p.feature});
-    now_.push_back(std::move(entry));
-    return now_.back();
+    found_.push_back(std::move(entry));
+    return found_.back();
 }
 
 void ManifoldMemory::addTo(StateHash& io_hash) const {

@@ -24,15 +24,28 @@ public:
         std::vector<FollowedPoint> points;
     };
 
-    /// Begins a part: what it is not asked for will be forgotten at the next.
+    /// What is found of some pairs in a part, to be added to the memory. Several may be filled at once, each by a thread of its own, as
+    /// long as no two have a pair in common.
+    class Share {
+    public:
+        explicit Share(ManifoldMemory& memory) : memory_(&memory) {}
+        /// The pair's points, if they still are all there are within the margin; null: they must be looked for anew. `radius`: of a
+        /// about its frame's origin.
+        const Entry* follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius, double margin);
+        /// Keeps the pair's entry as it is: of one that sleeps.
+        void keep(std::uint32_t a, std::uint32_t b);
+        /// Keeps what was found; points hold for as long as nothing has moved by the slack.
+        const Entry& remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack, const Manifold& found);
+
+    private:
+        friend class ManifoldMemory;
+        ManifoldMemory* memory_;
+        std::vector<Entry> found_;
+    };
+
+    /// Begins a part: what is not added will be forgotten at the next.
     void begin();
-    /// The pair's points, if they still are all there are within the margin; null: they must be looked for anew. `radius`: of a
-    /// about its frame's origin.
-    const Entry* follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius, double margin);
-    /// Keeps the pair's entry as it is: of one that sleeps.
-    void keep(std::uint32_t a, std::uint32_t b);
-    /// Keeps what was found; points hold for as long as nothing has moved by the slack.
-    const Entry& remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack, const Manifold& found);
+    void add(Share&& share);
     void addTo(StateHash& io_hash) const;
     void forget(std::uint32_t object);
     void clear() { last_.clear(), now_.clear(); }

@@ -41,6 +41,10 @@ Stages calledFor(const Scene& scene) {
     return called;
 }
 
+void StepCounts::add(const StepCounts& more) {
+    for (const Counter& counter : kCounters) this->*counter.of += more.*counter.of;
+}
+
 std::uint64_t StepCounts::used(Stage stage) const {
     const auto row = std::ranges::find(kCounters, stage, &Counter::stage);
     return row == kCounters.end() ? 0 : this->*row->of;

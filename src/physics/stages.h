@@ -64,6 +64,7 @@ struct StepCounts {
     std::uint64_t islands = 0;          // passes that wake and put to sleep
     std::uint64_t torques = 0;          // turns of a contact's torque against rolling and spinning
 
+    void add(const StepCounts& more);
     /// How often the stage did its work.
     std::uint64_t used(Stage stage) const;
     friend bool operator==(const StepCounts&, const StepCounts&) = default;

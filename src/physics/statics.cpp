@@ -41,11 +41,13 @@ std::vector<std::size_t> StaticField::solidsNear(glm::dvec3 centre, double reach
 double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out, double* out_room) const {
     out.clear();
     // What the grid does not name has no surface within reach.
+    std::uint64_t evaluations = 0;
     double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY, room = free;
     for (const std::size_t i : solidsNear(centre, radius + margin)) {
-        const FreeGap gap = addTouches(solids_[i], {centre, radius}, margin, out, evaluations_);
+        const FreeGap gap = addTouches(solids_[i], {centre, radius}, margin, out, evaluations);
         free = std::min(free, gap.free), room = std::min(room, gap.room);
     }
+    evaluations_.add(evaluations);
     if (out_room) *out_room = room;
     keepUnhidden(out, radius);
     return out.empty() ? free : std::min(free, out.front().gap);
@@ -56,7 +58,7 @@ double StaticField::room(glm::dvec3 centre, double radius) const {
     for (const std::size_t i : solidsNear(centre, radius)) {
         const double outside = distanceTo(solids_[i].box, centre) - radius;
         if (outside > 0) room = std::min(room, outside);
-        else ++evaluations_, room = std::min(room, solids_[i].at(centre) - radius);
+        else evaluations_.add(1), room = std::min(room, solids_[i].at(centre) - radius);
     }
     return room;
 }

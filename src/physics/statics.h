@@ -3,8 +3,24 @@
 // of many leaves, are found through grids.
 #include "physics/touch.h"
 
+#include <atomic>
+
 namespace mb {
 
+/// A count that several threads may add to.
+class Tally {
+public:
+    Tally() = default;
+    Tally(const Tally& other) : count_(other.value()) {}
+    Tally& operator=(const Tally& other) { return count_ = other.value(), *this; }
+    void add(std::uint64_t more) { count_.fetch_add(more, std::memory_order_relaxed); }
+    std::uint64_t value() const { return count_.load(std::memory_order_relaxed); }
+
+private:
+    std::atomic<std::uint64_t> count_{0};
+};
+
+/// Several threads may ask it at once.
 class StaticField {
 public:
     StaticField() = default;
@@ -23,15 +39,15 @@ public:
     std::vector<std::size_t> solidsNear(glm::dvec3 centre, double reach) const;
     const Solid& solid(std::size_t number) const { return solids_[number]; }
 
-    void countEvaluations(std::uint64_t more) const { evaluations_ += more; }
-    std::uint64_t evaluations() const { return evaluations_; }
+    void countEvaluations(std::uint64_t more) const { evaluations_.add(more); }
+    std::uint64_t evaluations() const { return evaluations_.value(); }
     bool empty() const { return solids_.empty(); }
 
 private:
     std::vector<Solid> solids_;
     std::shared_ptr<const Grid> grid_;       // of them all together, where they are many
     std::vector<std::size_t> solid_of_;      // by a leaf's number in that grid
-    mutable std::uint64_t evaluations_ = 0;  // of a solid's whole tree, or as much work
+    mutable Tally evaluations_;              // of a solid's whole tree, or as much work
 };
 
 }  // namespace mb

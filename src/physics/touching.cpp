@@ -1,5 +1,6 @@
 // Which bodies touch at the start of a part, or will within it.
 #include "core/effects/effect.h"
+#include "core/measure/parallel.h"
 #include "physics/world.h"
 
 #include <glm/geometric.hpp>
@@ -9,32 +10,44 @@ namespace mb {
 /// Contacts at the start of a part of length h; the pairs behind the static ones. Of those that are met in flight, only what touches
 /// now; of the others also what lies ahead.
 std::span<Contact> PhysicsWorld::touching(double h) {
-    std::vector<Contact>& contacts = scratch_.found;
-    contacts.clear();
+    scratch_.found.clear();
     memory_.begin();
-    if (has(Stage::static_contacts)) touchStatics(contacts, h);
-    if (has(Stage::broad_phase)) touchBodies(contacts, h);
-    return contacts;
+    const FlightRules rules = rulesFor(h);
+    if (has(Stage::static_contacts)) findAll(bodies_.size(), [&](std::size_t i, Found& io_found) { touchStatics(i, rules, io_found); });
+    if (has(Stage::broad_phase)) touchBodies(rules);
+    return scratch_.found;
 }
 
-void PhysicsWorld::touchStatics(std::vector<Contact>& io_contacts, double h) {
-    const FlightRules rules = rulesFor(h);
-    const Collider collider(world_, field_, counts_, &memory_);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const Body& b = bodies_[i];
-        if (!b.awake) {
-            memory_.keep(b.object.value, 0);
-            continue;
-        }
-        const double travel = travelOf(b, rules);
-        const bool flown = metInFlight(b, rules, travel);
-        const double ahead = restDepth(b.inner) + (flown ? 0 : travel);
-        const double margin = b.isBall() ? std::min(ahead, kNear * b.radius) : ahead;
-        if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) continue;
-        const std::size_t before = io_contacts.size();
-        collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_contacts);
-        for (std::size_t k = before; k < io_contacts.size(); ++k) io_contacts[k].flown = flown;
+/// Appends what is found of the first `count` things, in their order, whichever thread finds it: find(i, io_found) adds what there is
+/// of i. Balls alone are found sooner than threads begin.
+template <class Find> void PhysicsWorld::findAll(std::size_t count, Find find) {
+    constexpr std::size_t kLeast = 8;  // things of a share
+    const std::size_t shares = allBalls() || threads_ <= 1 ? 1 : std::clamp<std::size_t>(count / kLeast, 1, 8 * threads_);
+    std::vector<Found> found(shares, Found(memory_));
+    if (shares == 1) std::swap(found[0].contacts, scratch_.found);
+    inParallel(threads_, shares, [&](std::size_t k, bool) {
+        for (std::size_t i = count * k / shares; i < count * (k + 1) / shares; ++i) find(i, found[k]);
+    });
+    if (shares == 1) std::swap(found[0].contacts, scratch_.found);
+    for (Found& f : found) {
+        scratch_.found.insert(scratch_.found.end(), f.contacts.begin(), f.contacts.end());
+        memory_.add(std::move(f.memory));
+        counts_.add(f.counts);
     }
+}
+
+void PhysicsWorld::touchStatics(std::size_t i, const FlightRules& rules, Found& io_found) {
+    const Body& b = bodies_[i];
+    if (!b.awake) return io_found.memory.keep(b.object.value, 0);
+    const double travel = travelOf(b, rules);
+    const bool flown = metInFlight(b, rules, travel);
+    const double ahead = restDepth(b.inner) + (flown ? 0 : travel);
+    const double margin = b.isBall() ? std::min(ahead, kNear * b.radius) : ahead;
+    if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) return;
+    const Collider collider(world_, field_, io_found.counts, &io_found.memory);
+    const std::size_t before = io_found.contacts.size();
+    collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_found.contacts);
+    for (std::size_t k = before; k < io_found.contacts.size(); ++k) io_found.contacts[k].flown = flown;
 }
 
 /// How far around its centre a body may come to be within a time, against bodies that drift, m.
@@ -65,29 +78,32 @@ void PhysicsWorld::coverPairs(double h, std::span<const Motion> accelerations) {
     ++counts_.broad_phases, counts_.pairs += pairs_.pairs().size();
 }
 
-void PhysicsWorld::touchBodies(std::vector<Contact>& io_contacts, double h) {
-    coverPairs(h);
+void PhysicsWorld::touchBodies(const FlightRules& rules) {
+    coverPairs(rules.duration);
     if (!has(Stage::body_contacts)) return;
-    const FlightRules rules = rulesFor(h);
-    std::vector<Reach> reach(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const Body& b = bodies_[i];
-        reach[i] = {b.position, b.radius + restDepth(b.inner) + (b.awake ? travelOf(b, rules) : 0)};
-    }
-    const Collider collider(world_, field_, counts_, &memory_);
+    std::vector<Reach>& reach = scratch_.reach;
+    reach.clear();
+    for (const Body& b : bodies_) reach.push_back({b.position, b.radius + restDepth(b.inner) + (b.awake ? travelOf(b, rules) : 0)});
+    std::vector<std::pair<int, int>>& near = scratch_.near;
+    near.clear();
     for (const auto& [i, j] : pairs_.pairs()) {
-        const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
-        const glm::dvec3 apart = reach[k].centre - reach[l].centre;
-        const double most = reach[k].reach + reach[l].reach;
-        if (glm::dot(apart, apart) > most * most) continue;
-        const Body &a = bodies_[k], &b = bodies_[l];
-        const double travel = travelBetween(a, b, rules);
-        const bool flown = metInFlight(a, b, rules, travel);
-        const double margin = restDepth(std::min(a.inner, b.inner)) + (flown ? 0 : travel);
-        const std::size_t before = io_contacts.size();
-        collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_contacts);
-        for (std::size_t n = before; n < io_contacts.size(); ++n) io_contacts[n].flown = flown;
+        const Reach &a = reach[static_cast<std::size_t>(i)], &b = reach[static_cast<std::size_t>(j)];
+        const glm::dvec3 apart = a.centre - b.centre;
+        const double most = a.reach + b.reach;
+        if (glm::dot(apart, apart) <= most * most) near.emplace_back(i, j);
     }
+    findAll(near.size(), [&](std::size_t k, Found& io_found) { touchPair(near[k].first, near[k].second, rules, io_found); });
+}
+
+void PhysicsWorld::touchPair(int i, int j, const FlightRules& rules, Found& io_found) {
+    const Body &a = bodies_[static_cast<std::size_t>(i)], &b = bodies_[static_cast<std::size_t>(j)];
+    const double travel = travelBetween(a, b, rules);
+    const bool flown = metInFlight(a, b, rules, travel);
+    const double margin = restDepth(std::min(a.inner, b.inner)) + (flown ? 0 : travel);
+    const Collider collider(world_, field_, io_found.counts, &io_found.memory);
+    const std::size_t before = io_found.contacts.size();
+    collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_found.contacts);
+    for (std::size_t n = before; n < io_found.contacts.size(); ++n) io_found.contacts[n].flown = flown;
 }
 
 }  // namespace mb

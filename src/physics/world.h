@@ -9,6 +9,7 @@
 // Each of these is there if a row of the table of effects calls for it (stages.h): a part is composed of the stages that the
 // bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no ball is awake a
 // step only counts the time.
+#include "core/measure/parallel.h"
 #include "physics/crowd.h"
 #include "physics/flight.h"
 #include "physics/islands.h"
@@ -46,6 +47,9 @@ public:
     /// `choice`: to price a stage, and for tests; else the world is composed of what its scene calls for.
     explicit PhysicsWorld(const Scene& scene, StageChoice choice = {});
 
+    /// How many threads look for contacts, at least 1; what a step does is the same for any number. At first as many as the machine
+    /// has cores, and 4 at most.
+    void setThreads(unsigned threads) { threads_ = std::max(threads, 1u); }
     /// One dt of the scene's physics record.
     void step();
     std::uint64_t steps() const { return steps_; }
@@ -113,6 +117,8 @@ private:
         std::vector<LaneMotion> motion;                        // of every body, and of what never moves
         std::vector<std::uint64_t> used;                       // of every body; 0 between uses
         std::vector<int> balls;                                // of an island
+        std::vector<Reach> reach;
+        std::vector<std::pair<int, int>> near;                 // the pairs that may touch
         std::vector<char> taken;                               // of every impulse kept
         Scratch() = default;
         Scratch(const Scratch&) {}
@@ -132,8 +138,16 @@ private:
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
     bool allBalls() const { return shapes_ == 0; }
     std::span<Contact> touching(double h);
-    void touchStatics(std::vector<Contact>& io_contacts, double h);
-    void touchBodies(std::vector<Contact>& io_contacts, double h);
+    struct Found {                                             // of some bodies or pairs, by one thread
+        std::vector<Contact> contacts;
+        ManifoldMemory::Share memory;
+        StepCounts counts;
+        explicit Found(ManifoldMemory& of) : memory(of) {}
+    };
+    template <class Find> void findAll(std::size_t count, Find find);
+    void touchStatics(std::size_t i, const FlightRules& rules, Found& io_found);
+    void touchBodies(const FlightRules& rules);
+    void touchPair(int i, int j, const FlightRules& rules, Found& io_found);
     Reach reachOf(std::size_t i, glm::dvec3 drift, double pull, double time) const;
     void coverPairs(double h, std::span<const Motion> accelerations = {});
     std::vector<Motion> rest(std::span<Contact> contacts, const Islands& islands, double h);
@@ -196,6 +210,7 @@ private:
     Stages stages_;
     StepCounts counts_;
     std::uint64_t steps_ = 0, impacts_ = 0, held_ = 0, before_ = 0;
+    unsigned threads_ = std::min(coresOf(), 4u);
     int removed_ = 0, contacts_ = 0, shapes_ = 0;              // shapes: bodies that are no balls
 };
 

@@ -1,14 +1,14 @@
 #include "core/accuracy/reference.h"
 
+#include "core/measure/parallel.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace mb {
 namespace {
@@ -118,17 +118,11 @@ bool TruePictureWork::step(double ms) {
 
 void TruePictureWork::finish(const std::function<void(double)>& show) {
     const int rows = picture_.frame.size.y;
-    std::atomic<int> next{next_row_};
-    const auto work = [&](bool shows) {
-        for (int y = next++; y < rows; y = next++) {
-            row(y, noise_[static_cast<std::size_t>(y)]);
-            if (shows && show) show(static_cast<double>(y) / rows);
-        }
-    };
-    std::vector<std::thread> threads;
-    for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work, false);
-    work(true);
-    for (std::thread& t : threads) t.join();
+    inParallel(coresOf(), static_cast<std::size_t>(std::max(rows - next_row_, 0)), [&](std::size_t i, bool here) {
+        const int y = next_row_ + static_cast<int>(i);
+        row(y, noise_[static_cast<std::size_t>(y)]);
+        if (here && show) show(static_cast<double>(y) / rows);
+    });
     if (next_row_ < rows) next_row_ = rows, conclude();
 }
 

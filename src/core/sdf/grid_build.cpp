@@ -1,11 +1,11 @@
 #include "core/sdf/grid_build.h"
 
+#include "core/measure/parallel.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 namespace mb {
 namespace {
@@ -148,20 +148,12 @@ GridMade GridBuilder::build(const std::vector<char>* dirty, PartList parts) cons
     all.evaluations = first.pruner.evaluations();
 
     std::vector<GridMade> made(tasks.size());
-    std::atomic<std::size_t> taken{0};
-    const auto work = [&] {
-        for (std::size_t i = taken++; i < tasks.size(); i = taken++) {
-            Work share{*this, dirty};
-            share.split(tasks[i].range, tasks[i].parts, 0);
-            share.made.evaluations = share.pruner.evaluations();
-            made[i] = std::move(share.made);
-        }
-    };
-    std::vector<std::thread> others;
-    const unsigned threads = tasks.size() > 8 ? std::max(std::thread::hardware_concurrency(), 1u) : 1;
-    for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& t : others) t.join();
+    inParallel(tasks.size() > 8 ? coresOf() : 1, tasks.size(), [&](std::size_t i, bool) {
+        Work share{*this, dirty};
+        share.split(tasks[i].range, tasks[i].parts, 0);
+        share.made.evaluations = share.pruner.evaluations();
+        made[i] = std::move(share.made);
+    });
     for (GridMade& m : made) all.append(std::move(m));
     return all;
 }
