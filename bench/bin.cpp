@@ -33,7 +33,7 @@ double coarse(double x) { return std::floor(x * 4096 + 0.5) / 4096; }
 
 class MarchboxBin : public BinPeer {
 public:
-    explicit MarchboxBin(const SphereBin& bin) : scene_(sceneOf(bin)), world_(scene_) {}
+    explicit MarchboxBin(const SphereBin& bin) : scene_(sceneOf(bin)), world_(scene_) { world_.setThreads(1); }
     void step() override { world_.step(); }
     std::vector<glm::dvec3> positions() const override {
         constexpr double kGone = std::numeric_limits<double>::quiet_NaN();
@@ -52,7 +52,7 @@ private:
         Scene s;
         s.world.gravity = SphereBin::kGravity, s.world.friction = SphereBin::kFriction, s.world.restitution = SphereBin::kRestitution;
         s.world.bounds = 1e4;
-        s.physics.dt = SphereBin::kStep, s.physics.sleep_speed = 0; s.physics.substeps = 1, s.physics.iterations = 4;
+        s.physics.dt = SphereBin::kStep, s.physics.substeps = 1, s.physics.iterations = 4, s.physics.sleep_speed = 0;
         const auto add = [&](std::string_view type, glm::dvec3 at) -> Object& {
             Object& o = s.objects.emplace_back();
             o.id = s.newId(), o.type = findShapeType(type), o.pos = at;

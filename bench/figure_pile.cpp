@@ -13,6 +13,7 @@ void printPile(PhysicsBench& bench, int dice) {
     bench.say(fmt::format("pile: {} carved dice, until they sleep", dice));
     Scene scene = pileScene(dice, bench.options.seed);
     PhysicsWorld world(scene);
+    world.setThreads(1);
     std::vector<double> ms;
     while (world.awake() > 0 && world.time_s() < kLongest) ms.push_back(timeOf([&] { world.step(); }));
     world.writeTo(scene);

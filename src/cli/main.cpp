@@ -2,6 +2,9 @@
 #include "cli/cli.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -57,6 +60,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+    // What a step or a frame gives back the next one takes again; else the system takes it and clears it each time.
+    mallopt(M_MMAP_THRESHOLD, 1 << 28);
+    mallopt(M_TRIM_THRESHOLD, 1 << 28);
+#endif
     try {
         return run(argc, argv);
     } catch (const Failure& failure) {

