@@ -28,8 +28,9 @@ struct Body {
 
     bool isBall() const { return !solid; }
     double mass() const { return 1 / inverse_mass; }
-    /// Of its shape; a ball's is the same however it is turned.
-    Pose pose() const { return {position, isBall() ? glm::dmat3{1} : glm::mat3_cast(orientation)}; }
+    Pose pose() const { return {position, glm::mat3_cast(orientation)}; }
+    /// As contacts see it: a ball is the same however it is turned.
+    Pose shapePose() const { return isBall() ? Pose{position, glm::dmat3{1}} : pose(); }
     /// In the world's frame; every direction of a ball is alike.
     glm::dmat3 worldInverseInertia() const;
 };

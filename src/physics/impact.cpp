@@ -27,7 +27,7 @@ void Flight::addStaticContacts(int i, bool alone, std::vector<Contact>& io_conta
     NearStatics& near = near_[static_cast<std::size_t>(i)];
     if (rules_.proofs && near.roomAt(body.position, body.radius) > restDepth(body.inner)) return;
     const std::size_t before = io_contacts.size();
-    collider_.withStatics(i, body, body.pose(), kNear * body.inner, near, io_contacts);
+    collider_.withStatics(i, body, body.shapePose(), kNear * body.inner, near, io_contacts);
     dropApart(io_contacts, before, restDepth(body.inner), alone && !body.isBall());
 }
 
@@ -43,7 +43,7 @@ std::vector<Contact> Flight::contactsOf(int a, int b) {
     const std::size_t before = contacts.size();
     // That balls meet is known; their gap is 0 but for rounding.
     const bool balls = x.isBall() && y.isBall();
-    collider_.between(a, x, x.pose(), b, y, y.pose(), balls ? INFINITY : kNear * inner, contacts);
+    collider_.between(a, x, x.shapePose(), b, y, y.shapePose(), balls ? INFINITY : kNear * inner, contacts);
     if (!balls) dropApart(contacts, before, restDepth(inner), true);
     return contacts;
 }

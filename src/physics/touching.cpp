@@ -46,7 +46,7 @@ void PhysicsWorld::touchStatics(std::size_t i, const FlightRules& rules, Found& 
     if (choice_.proofs && near_[i].roomAt(b.position, b.radius) > margin) return;
     const Collider collider(world_, field_, io_found.counts, &io_found.memory);
     const std::size_t before = io_found.contacts.size();
-    collider.withStatics(static_cast<int>(i), b, b.pose(), margin, near_[i], io_found.contacts);
+    collider.withStatics(static_cast<int>(i), b, b.shapePose(), margin, near_[i], io_found.contacts);
     for (std::size_t k = before; k < io_found.contacts.size(); ++k) io_found.contacts[k].flown = flown;
 }
 
@@ -102,7 +102,7 @@ void PhysicsWorld::touchPair(int i, int j, const FlightRules& rules, Found& io_f
     const double margin = restDepth(std::min(a.inner, b.inner)) + (flown ? 0 : travel);
     const Collider collider(world_, field_, io_found.counts, &io_found.memory);
     const std::size_t before = io_found.contacts.size();
-    collider.between(i, a, a.pose(), j, b, b.pose(), margin, io_found.contacts);
+    collider.between(i, a, a.shapePose(), j, b, b.shapePose(), margin, io_found.contacts);
     for (std::size_t n = before; n < io_found.contacts.size(); ++n) io_found.contacts[n].flown = flown;
 }
 

@@ -218,11 +218,11 @@ double PhysicsWorld::maxPenetration() const {
         const Body& b = bodies_[i];
         reach.push_back({b.position, b.radius});
         NearStatics near;
-        collider.withStatics(static_cast<int>(i), b, b.pose(), 0, near, contacts);
+        collider.withStatics(static_cast<int>(i), b, b.shapePose(), 0, near, contacts);
     }
     for (const auto& [i, j] : overlappingPairs(reach)) {
         const Body &a = bodies_[static_cast<std::size_t>(i)], &b = bodies_[static_cast<std::size_t>(j)];
-        collider.between(i, a, a.pose(), j, b, b.pose(), 0, contacts);
+        collider.between(i, a, a.shapePose(), j, b, b.shapePose(), 0, contacts);
     }
     double deepest = 0;
     for (const Contact& c : contacts) deepest = std::max(deepest, -c.gap);
