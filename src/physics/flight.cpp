@@ -68,8 +68,8 @@ bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules) {
     return 2 * furthest > kNear * thinnest;
 }
 
-void Flight::run() {
-    if (has(Stage::continuous) && anyMetInFlight(bodies_, rules_)) {
+void Flight::run(bool meets) {
+    if (meets) {
         for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
         std::vector<double> travel;
         for (const Body& b : bodies_) travel.push_back(b.isBall() && pairing(rules_.world, b).restitution != 0 ? INFINITY : travelOf(b, rules_));

@@ -47,8 +47,8 @@ public:
     /// until then.
     Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
            std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts);
-    /// Moves every body to the end of the part.
-    void run();
+    /// Moves every body to the end of the part. `meets`: impacts are looked for on the way (anyMetInFlight).
+    void run(bool meets);
 
     int impacts = 0;
     int held = 0;             // bodies that met more than fits into one part: they wait for the next where they are

@@ -111,10 +111,10 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
-    const bool meets = has(Stage::body_contacts) && has(Stage::broad_phase) && anyMetInFlight(bodies_, rulesFor(h));
-    if (meets) coverPairs(h, accelerations);
-    Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, meets ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
-    flight.run();
+    const bool meets = has(Stage::continuous) && anyMetInFlight(bodies_, rulesFor(h)), pairs = meets && has(Stage::body_contacts) && has(Stage::broad_phase);
+    if (pairs) coverPairs(h, accelerations);
+    Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, pairs ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
+    flight.run(meets);
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += static_cast<std::uint64_t>(flight.held);
 }

@@ -240,6 +240,19 @@ std::string slowRise(const Specimen& s, Draw& draw) {
     return {};
 }
 
+/// The distance to a convex set is a convex function: half-way between two places outside it is no more than the mean.
+std::string notConvex(const Specimen& s, Draw& draw) {
+    if (!s.row.convex) return {};
+    if (!s.row.exact) return fmt::format("{}: convex, though not exact", s.row.name);
+    for (int i = 0; i < 1000; ++i) {
+        const Point a = drawPoint(draw, s), b = drawPoint(draw, s), middle = (a + b) * 0.5;
+        const double mean = 0.5 * (s.at(a) + s.at(b));
+        if (s.at(a) <= 0 || s.at(b) <= 0) continue;
+        if (!(s.at(middle) <= mean + noise(s, a) + noise(s, b))) return describe(s, middle) + fmt::format(": {} half-way, {} in the mean", s.at(middle), mean);
+    }
+    return {};
+}
+
 }  // namespace
 
 Specimen drawSpecimen(Draw& draw, const Primitive& row) {
@@ -267,6 +280,7 @@ std::span<const PrimitiveLaw> primitiveLaws() {
         {"float agrees with double", coarseFloat, 60},
         {"the extent is the tightest box", wrongExtent, 20},
         {"the value rises with the distance from the shape", slowRise, 40},
+        {"what is called convex is", notConvex, 40},
     };
     return kLaws;
 }

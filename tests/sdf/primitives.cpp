@@ -147,6 +147,8 @@ std::vector<BadRow> badRows() {
     all.push_back({"the extent is the tightest box", with("torus", swapped)});
     add("the slope is one, or at most one", "ellipsoid", [](Primitive& p) { p.exact = true; });
     add("the distance is that to the surface", "ellipsoid", [](Primitive& p) { p.exact = true; });
+    add("what is called convex is", "torus", [](Primitive& p) { p.convex = true; });
+    add("what is called convex is", "ellipsoid", [](Primitive& p) { p.convex = true; });
     add("the value rises with the distance from the shape", "ellipsoid", [](Primitive& p) { p.rises = nullptr; });
     return all;
 }
