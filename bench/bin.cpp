@@ -52,7 +52,7 @@ private:
         Scene s;
         s.world.gravity = SphereBin::kGravity, s.world.friction = SphereBin::kFriction, s.world.restitution = SphereBin::kRestitution;
         s.world.bounds = 1e4;
-        s.physics.dt = SphereBin::kStep, s.physics.substeps = 1, s.physics.iterations = 4, s.physics.sleep_speed = 0;
+        s.physics.dt = SphereBin::kStep, s.physics.substeps = 1, s.physics.iterations = 3, s.physics.push_out = 0.8, s.physics.sleep_speed = 0;
         const auto add = [&](std::string_view type, glm::dvec3 at) -> Object& {
             Object& o = s.objects.emplace_back();
             o.id = s.newId(), o.type = findShapeType(type), o.pos = at;

@@ -10,12 +10,21 @@ glm::dmat3 Body::worldInverseInertia() const {
     return r * inverse_inertia * glm::transpose(r);
 }
 
-Pairing pairing(const World& world, const Body& a) {
+namespace {
+const OwnSurface kNothing;
+const OwnSurface& ownOf(const Body& b) { return b.own ? *b.own : kNothing; }
+}  // namespace
+
+Pairing pairing(const World& world, const Body& body) {
+    if (!body.own) return pairing(world);
+    const OwnSurface& a = ownOf(body);
     return {a.restitution.value_or(world.restitution), a.friction.value_or(world.friction), a.rolling.value_or(world.rolling),
             a.spinning.value_or(world.spinning)};
 }
 
-Pairing pairing(const World& world, const Body& a, const Body& b) {
+Pairing pairing(const World& world, const Body& body_a, const Body& body_b) {
+    if (!body_a.own && !body_b.own) return pairing(world);
+    const OwnSurface &a = ownOf(body_a), &b = ownOf(body_b);
     const auto both = [](const std::optional<double>& x, const std::optional<double>& y, double of_world, auto join) {
         return x && y ? join(*x, *y) : x.value_or(y.value_or(of_world));
     };
@@ -44,7 +53,7 @@ glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double 
     const double x2 = glm::dot(half, half);
     if (x2 == 0) return orientation;
     const glm::dvec3 tangent = half * ((15 - x2) / (15 - 6 * x2));
-    glm::dquat turn = glm::normalize(glm::dquat{1, tangent.x, tangent.y, tangent.z});
+    glm::dquat turn{1, tangent.x, tangent.y, tangent.z};
     for (; halvings > 0; --halvings) turn = glm::normalize(turn * turn);
     return glm::normalize(turn * orientation);
 }

@@ -7,24 +7,31 @@
 
 namespace mb {
 
-struct Body {
-    ObjectId object;
-    std::string name;
-    std::shared_ptr<const Solid> solid;  // its shape about its centre of mass; none: a ball. Equal shapes share it
+/// What a body's surface does by its own; what it does not say, the world's does.
+struct OwnSurface {
+    std::optional<double> restitution = {}, friction = {}, rolling = {}, spinning = {};
+    friend bool operator==(const OwnSurface&, const OwnSurface&) = default;
+};
+
+/// What the steps ask for most comes first, in as few lines of the cache as hold it.
+struct alignas(64) Body {
     glm::dvec3 position{0};              // of the centre of mass, m
     glm::dvec3 velocity{0};              // of the centre of mass, m/s
-    glm::dvec3 spin{0};                  // rad/s, in the world's frame
-    glm::dquat orientation{1, 0, 0, 0};
     double radius = 0;                   // m: the ball's, or of the ball around the centre of mass that holds the shape
     double inner = 0;                    // m: the ball's, or half the shape's thickness
+    glm::dvec3 spin{0};                  // rad/s, in the world's frame
     double inverse_mass = 0;             // 1/kg
+    glm::dquat orientation{1, 0, 0, 0};
+    std::shared_ptr<const Solid> solid;  // its shape about its centre of mass; none: a ball. Equal shapes share it
+    std::shared_ptr<const OwnSurface> own;  // none: it says nothing
+    ObjectId object;
+    int still = 0;                       // parts of steps it has been still for
+    bool awake = true;
+    glm::dmat3 inverse_inertia{0};       // of the inertia
     glm::dmat3 inertia{0};               // kg·m², about the centre of mass, in the body's frame
-    glm::dmat3 inverse_inertia{0};
-    std::optional<double> restitution, friction, rolling, spinning;  // its own; none: the world's
+    std::string name;
     glm::dvec3 offset{0};                // of the centre of mass from the object's origin, in the object's frame, m
     glm::dquat placed{1, 0, 0, 0};       // the orientation the scene gave it
-    bool awake = true;
-    int still = 0;                       // parts of steps it has been still for
 
     bool isBall() const { return !solid; }
     double mass() const { return 1 / inverse_mass; }
@@ -34,6 +41,10 @@ struct Body {
     /// In the world's frame; every direction of a ball is alike.
     glm::dmat3 worldInverseInertia() const;
 };
+
+/// How deep a resting body may sink before it counts as moving into what it rests on, m; of the ball's radius, or half the
+/// shape's thickness.
+inline double restDepth(double inner) { return std::min(1e-4, 1e-3 * inner); }
 
 /// What impulses change.
 struct Motion {
@@ -56,6 +67,8 @@ Pairing pairing(const World& world, const Body& a);
 /// Two bodies: where only one states a value, it counts; where both do, the greater restitution and the geometric mean of the
 /// others; where neither does, the world's.
 Pairing pairing(const World& world, const Body& a, const Body& b);
+/// Of bodies that say nothing.
+inline Pairing pairing(const World& world) { return {world.restitution, world.friction, world.rolling, world.spinning}; }
 
 /// Turns an orientation by spin·time, with +, ·, ÷ and √ only, so that every compiler's result is the same to the bit.
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double time);

@@ -1,5 +1,5 @@
 #pragma once
-// Which bodies may meet: the pairs whose boxes overlap.
+// Which bodies may meet: the pairs that are within reach of one another.
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -16,7 +16,7 @@ struct Reach {
     double reach = 0;
 };
 
-/// Every pair (i < j) whose boxes overlap, sorted: the same set as comparing each with each. Bodies of about one size lie in
+/// Every pair (i < j) of those that overlap, sorted: the same set as comparing each with each. Bodies of about one size lie in
 /// rows along x, as wide as the largest of them, and look along the rows around theirs, there and among those of every larger size,
 /// so that the work grows with the bodies and the pairs (a hierarchical grid, swept along one axis; Ericson, "Real-Time Collision
 /// Detection", 2005, sections 7.2 and 7.5).
@@ -54,10 +54,11 @@ private:
     std::vector<std::pair<int, int>> pairs_;
 };
 
+/// Whether the balls do within which they reach; rounding included.
 inline bool overlap(const Reach& a, const Reach& b) {
-    const double r = a.reach + b.reach;
+    const double r = (a.reach + b.reach) * (1 + 1e-12);
     const glm::dvec3 d = a.centre - b.centre;
-    return (std::fabs(d.x) <= r) & (std::fabs(d.y) <= r) & (std::fabs(d.z) <= r);
+    return glm::dot(d, d) <= r * r;
 }
 
 }  // namespace mb

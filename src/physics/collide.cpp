@@ -12,14 +12,14 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
     if (body.isBall()) {
         io_near.moveTo(field_, pose.position, body.radius, counts_);
         for (const Touch& touch : io_near.touches())
-            if (touch.gap <= margin) io_contacts.push_back(ballContact(i, body, touch.normal, touch.gap, pairing(world_, body)));
+            if (touch.gap <= margin) addBallContact(i, body, touch.normal, touch.gap, pairing(world_, body), io_contacts);
     } else if (!field_.empty()) {
         const auto find = [&](double within, std::uint64_t& io_evaluations) {
             std::vector<Placed> others;
-            for (const std::size_t s : field_.solidsNear(pose.position, body.radius + within)) {
+            field_.eachNear(pose.position, body.radius + within, [&](std::size_t s) {
                 const Solid& solid = field_.solid(s);
                 if (distanceTo(solid.box, pose.position) <= body.radius + within) others.push_back({&solid, {}, static_cast<std::uint32_t>(s)});
-            }
+            });
             ++counts_.static_queries;
             return others.empty() ? Manifold{{}, within} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
         };
@@ -28,17 +28,23 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
     counts_.static_contacts += io_contacts.size() - before;
 }
 
+void Collider::betweenBalls(int i, const Body& a, int j, const Body& b, const Pairing& pairing, double margin,
+                            std::vector<Contact>& io_contacts) const {
+    ++counts_.body_gaps;
+    const glm::dvec3 apart = a.position - b.position;
+    const double reach = std::max(a.radius + b.radius + margin, 0.0) * (1 + 1e-12);
+    if (glm::dot(apart, apart) > reach * reach) return;
+    addBallContact(i, a, j, b, pairing, io_contacts);
+    if (io_contacts.back().gap > margin) io_contacts.pop_back();
+    else ++counts_.body_contacts;
+}
+
 void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, double margin,
                        std::vector<Contact>& io_contacts) const {
+    if (a.isBall() && b.isBall()) return betweenBalls(i, a, j, b, pairing(world_, a, b), margin, io_contacts);
     const std::size_t before = io_contacts.size();
     ++counts_.body_gaps;
-    if (a.isBall() && b.isBall()) {
-        const glm::dvec3 apart = a.position - b.position;
-        const double reach = std::max(a.radius + b.radius + margin, 0.0) * (1 + 1e-12);
-        if (glm::dot(apart, apart) > reach * reach) return;
-        const Contact c = ballContact(i, a, j, b, pairing(world_, a, b));
-        if (c.gap <= margin) io_contacts.push_back(c);
-    } else if (a.isBall()) {
+    if (a.isBall()) {
         ballWithShape(i, a, pose_a, j, b, pose_b, margin, io_contacts);
     } else if (b.isBall()) {
         ballWithShape(j, b, pose_b, i, a, pose_a, margin, io_contacts);
@@ -62,9 +68,8 @@ void Collider::ballWithShape(int i, const Body& ball, const Pose& at, int j, con
     field_.countEvaluations(evaluations);
     for (const Touch& touch : touches) {
         if (touch.gap > margin) continue;
-        Contact c = ballContact(i, ball, pose.rotation * touch.normal, touch.gap, pairing(world_, ball, shape));
-        c.b = j, c.arm_b = pose.rotation * touch.point;
-        io_contacts.push_back(c);
+        Contact& c = addBallContact(i, ball, pose.rotation * touch.normal, touch.gap, pairing(world_, ball, shape), io_contacts);
+        c.b = j, c.arm_b = pose.rotation * touch.point, c.depth = std::min(c.depth, restDepth(shape.inner));
     }
 }
 
@@ -73,7 +78,7 @@ void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const 
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
     if (!(deep > 0)) return;
     Contact c;
-    c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.pairing = {0, 0};
+    c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.pairing = {0, 0};
     c.arm_b = pose_a.position - pose_b.position;
     io_contacts.push_back(c);
 }
@@ -83,11 +88,11 @@ void Collider::addPoints(int i, const Body& a, const Pose& pose_a, int j, const 
                          std::vector<Contact>& io_contacts) const {
     const Pairing pair = b ? pairing(world_, a, *b) : pairing(world_, a);
     // The circle of a ball as thick as the thinner one that has sunk in by the depth of rest.
-    const double inner = b ? std::min(a.inner, b->inner) : a.inner, patch = std::sqrt(2 * inner * restDepth(inner));
+    const double inner = b ? std::min(a.inner, b->inner) : a.inner, depth = restDepth(inner), patch = std::sqrt(2 * inner * depth);
     const auto add = [&](const ManifoldPoint& p) {
         if (p.gap > margin) return;
         Contact c;
-        c.a = i, c.b = j, c.normal = p.normal, c.gap = p.gap, c.feature = p.feature, c.pairing = pair, c.patch = patch;
+        c.a = i, c.b = j, c.normal = p.normal, c.gap = p.gap, c.depth = depth, c.feature = p.feature, c.pairing = pair, c.patch = patch;
         c.arm_a = p.point - pose_a.position;
         if (b) c.arm_b = p.point - pose_b.position;
         io_contacts.push_back(c);

@@ -6,10 +6,6 @@
 
 namespace mb {
 
-/// How deep a resting body may sink before it counts as moving into what it rests on, m; of the ball's radius, or half the
-/// shape's thickness.
-inline double restDepth(double inner) { return std::min(1e-4, 1e-3 * inner); }
-
 class Collider {
 public:
     /// `memory`: what is found is followed from call to call; none: it is looked for each time.
@@ -19,6 +15,8 @@ public:
     /// Appends the contacts that are nearer than the margin. `near`: what is known of the statics around the body. A ball's
     /// margin is at most kNear of its radius.
     void withStatics(int i, const Body& body, const Pose& pose, double margin, NearStatics& io_near, std::vector<Contact>& io_contacts) const;
+    /// Of two balls.
+    void betweenBalls(int i, const Body& a, int j, const Body& b, const Pairing& pairing, double margin, std::vector<Contact>& io_contacts) const;
     /// Of two bodies; where just one is a ball, that is the contact's a.
     void between(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, double margin,
                  std::vector<Contact>& io_contacts) const;

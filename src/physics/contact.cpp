@@ -22,11 +22,15 @@ template <bool drags, class Row> void start(Row& io_row) {
 }
 
 template <bool drags, class Row> void round(std::vector<Row>& io_rows, Change<double>& io_change) {
-    for (Row& row : io_rows) turn<drags>(row, *row.a, *row.b, row.contact->slip, io_change);
+    for (Row& row : io_rows) row.step = turn<drags>(row, *row.a, *row.b, row.contact->slip, io_change);
 }
 
-template <bool drags, class Row> void goOn(std::vector<Row>& io_rows, double share) {
-    for (Row& row : io_rows) goOn<drags>(row, *row.a, *row.b, share);
+template <bool drags, class Row> void goOnAll(std::vector<Row>& io_rows, double share) {
+    for (Row& row : io_rows) {
+        row.pushBy(goOn(row.push, row.way.push, row.step.push, share), *row.a, *row.b);
+        if constexpr (drags)
+            if (!isSmooth(row.friction)) row.dragBy(goOn(row.drag, row.way.drag, row.step.drag, share), *row.a, *row.b);
+    }
 }
 
 /// Gives the impulses back to the contacts.
@@ -56,7 +60,7 @@ void solveIsland(std::span<const Body> bodies, std::span<Contact> contacts, std:
         Change<double> changed;
         round<drags>(ball_rows, changed), round<drags>(lever_rows, changed);
         if (!pace.more(changed)) break;
-        goOn<drags>(ball_rows, pace.share()), goOn<drags>(lever_rows, pace.share());
+        goOnAll<drags>(ball_rows, pace.share()), goOnAll<drags>(lever_rows, pace.share());
     }
     finish(ball_rows), finish(lever_rows);
     io_counts.rounds += static_cast<std::uint64_t>(pace.made());
@@ -92,17 +96,17 @@ glm::dvec3 directionApart(const Body& a, const Body& b) {
     return glm::dot(n, n) > 1e-6 ? glm::normalize(n) : glm::dvec3{0, 1, 0};
 }
 
-Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pairing pairing) {
-    Contact c;
-    c.a = a, c.normal = normal, c.gap = gap, c.arm_a = -body.radius * normal, c.pairing = pairing;
+Contact& addBallContact(int a, const Body& body, const glm::dvec3& normal, double gap, const Pairing& pairing, std::vector<Contact>& io_contacts) {
+    Contact& c = io_contacts.emplace_back();
+    c.a = a, c.normal = normal, c.gap = gap, c.depth = restDepth(body.inner), c.arm_a = -body.radius * normal, c.pairing = pairing;
     return c;
 }
 
-Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing) {
+Contact& addBallContact(int a, const Body& body_a, int b, const Body& body_b, const Pairing& pairing, std::vector<Contact>& io_contacts) {
     const glm::dvec3 apart = body_a.position - body_b.position;
     const double d = glm::length(apart), sum = body_a.radius + body_b.radius;
-    Contact c = ballContact(a, body_a, d > kTogether * sum ? apart / d : directionApart(body_a, body_b), d - sum, pairing);
-    c.b = b, c.arm_b = body_b.radius * c.normal;
+    Contact& c = addBallContact(a, body_a, d > kTogether * sum ? apart / d : directionApart(body_a, body_b), d - sum, pairing, io_contacts);
+    c.b = b, c.arm_b = body_b.radius * c.normal, c.depth = std::min(c.depth, restDepth(body_b.inner));
     return c;
 }
 

@@ -12,26 +12,27 @@ inline constexpr int kStatic = -1;
 struct Contact {
     int a = 0, b = kStatic;        // numbers of bodies; b may be static
     int island = 0;                // which it belongs to; those of one stand together
+    bool flown = false;            // it is met in flight (flight.h), if it is fast
     glm::dvec3 normal{0};          // unit, from b towards a
     double gap = 0;                // m
-    glm::dvec3 arm_a{0}, arm_b{0}; // from the centres of mass to the contact, m
-    std::uint64_t feature = 0;     // what it was found from (manifold.h); 0 for a ball's
-    Pairing pairing;
-    bool flown = false;            // it is met in flight (flight.h), if it is fast
+    double depth = 0;              // m: how deep the two may rest in one another
     double target = 0;             // the least normal velocity of a against b afterwards, m/s
-    glm::dvec3 slip{0};            // the tangential velocity at the contact to reach if friction can, m/s
-    double patch = 0;              // m: radius of what touches, in truth; friction about the normal has it for a lever
     double push = 0;               // the normal impulse so far, N·s
     glm::dvec3 drag{0};            // the tangential one
-    double twist = 0;              // the angular one about the normal, N·m·s
+    Pairing pairing;
+    std::uint64_t feature = 0;     // what it was found from (manifold.h); 0 for a ball's
+    glm::dvec3 arm_a{0}, arm_b{0}; // from the centres of mass to the contact, m
+    glm::dvec3 slip{0};            // the tangential velocity at the contact to reach if friction can, m/s
+    double patch = 0;              // m: radius of what touches, in truth; friction about the normal has it for a lever
+    double twist = 0;              // the angular impulse about the normal, N·m·s
 };
 
 /// The unit vector from b's centre to a's. Centres that coincide are parted in a direction that follows from their ids.
 glm::dvec3 directionApart(const Body& a, const Body& b);
 
-/// Of a ball a with what does not move, or with another ball.
-Contact ballContact(int a, const Body& body, glm::dvec3 normal, double gap, Pairing pairing);
-Contact ballContact(int a, const Body& body_a, int b, const Body& body_b, Pairing pairing);
+/// Adds one of a ball a with what does not move, or with another ball.
+Contact& addBallContact(int a, const Body& body, const glm::dvec3& normal, double gap, const Pairing& pairing, std::vector<Contact>& io_contacts);
+Contact& addBallContact(int a, const Body& body_a, int b, const Body& body_b, const Pairing& pairing, std::vector<Contact>& io_contacts);
 
 /// Whether no lever is needed: a ball with what does not move, or with another ball.
 bool betweenBalls(std::span<const Body> bodies, const Contact& c);

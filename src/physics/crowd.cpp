@@ -8,69 +8,115 @@
 namespace mb {
 namespace {
 
+using Row = BallRowOf<true, Lanes, LaneVec>;
+
+/// Of four balls, what a batch moves: a LaneMotion each.
 struct LaneEnds {
-    LaneVec velocity, spin;
+    LaneVec velocity, spin, apart;
+    Lanes inverse{}, turn{}, radius{};
+};
+struct ApartEnds {
+    LaneVec& velocity;
 };
 
-template <bool drags> MB_INLINE void load(const LaneMotion* motion, const std::array<int, kLanes>& of, LaneEnds& out) {
-    const LaneMotion &a = motion[of[0]], &b = motion[of[1]], &c = motion[of[2]], &d = motion[of[3]];
-    out.velocity = transposed(a.velocity, b.velocity, c.velocity, d.velocity);
-    if constexpr (drags) out.spin = transposed(a.spin, b.spin, c.spin, d.spin);
+MB_INLINE LaneVec gathered(const LaneMotion* motion, const std::array<int, kLanes>& of, Lanes LaneMotion::*what, Lanes& out_number) {
+    return transposed(motion[of[0]].*what, motion[of[1]].*what, motion[of[2]].*what, motion[of[3]].*what, out_number);
 }
-template <bool drags> MB_INLINE void store(LaneMotion* out_motion, const std::array<int, kLanes>& of, const LaneEnds& ends) {
-    LaneMotion &a = out_motion[of[0]], &b = out_motion[of[1]], &c = out_motion[of[2]], &d = out_motion[of[3]];
-    transposeBack(ends.velocity, a.velocity, b.velocity, c.velocity, d.velocity);
-    if constexpr (drags) transposeBack(ends.spin, a.spin, b.spin, c.spin, d.spin);
+MB_INLINE void scatter(const LaneVec& v, const Lanes& number, LaneMotion* out_motion, const std::array<int, kLanes>& of, Lanes LaneMotion::*what) {
+    transposeBack(v, number, out_motion[of[0]].*what, out_motion[of[1]].*what, out_motion[of[2]].*what, out_motion[of[3]].*what);
+}
+template <bool drags, bool parts> MB_INLINE void load(const LaneMotion* motion, const std::array<int, kLanes>& of, LaneEnds& out) {
+    out.velocity = gathered(motion, of, &LaneMotion::velocity, out.inverse);
+    if constexpr (drags) out.spin = gathered(motion, of, &LaneMotion::spin, out.turn);
+    if constexpr (drags || parts) out.apart = gathered(motion, of, &LaneMotion::apart, out.radius);
+}
+template <bool drags, bool parts> MB_INLINE void store(const LaneEnds& ends, LaneMotion* out_motion, const std::array<int, kLanes>& of) {
+    scatter(ends.velocity, ends.inverse, out_motion, of, &LaneMotion::velocity);
+    if constexpr (drags) scatter(ends.spin, ends.turn, out_motion, of, &LaneMotion::spin);
+    if constexpr (parts) scatter(ends.apart, ends.radius, out_motion, of, &LaneMotion::apart);
 }
 
-template <bool drags> MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
+/// Does something with the row of each batch, and its two sides.
+template <bool drags, bool parts, class Do> MB_INLINE void visit(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, Do what) {
+    for (Crowd::Batch& batch : io_batches) {
+        LaneEnds a, b;
+        load<drags, parts>(io_motion, batch.a, a), load<drags, parts>(io_motion, batch.b, b);
+        Row row;
+        row.normal = batch.normal, row.normal_mass = batch.normal_mass, row.tangent_mass = batch.tangent_mass;
+        row.friction = batch.friction, row.target = batch.target, row.push = batch.push, row.drag = batch.drag;
+        row.inverse_a = a.inverse, row.inverse_b = b.inverse, row.turn_a = a.turn, row.turn_b = b.turn;
+        row.radius_a = a.radius, row.radius_b = b.radius;
+        what(batch, row, a, b);
+        store<drags, parts>(a, io_motion, batch.a), store<drags, parts>(b, io_motion, batch.b);
+    }
+}
+
+/// What bodies went on by follows from what they did in the last round, as it is linear in what the rows went on by.
+template <bool drags, bool parts> MB_INLINE void goOnBodies(std::span<const int> balls, Crowd::Motions& io_motions, double share, double apart_share) {
+    const auto go = [](Lanes& io_now, Lanes& io_way, Lanes& io_last, double by) MB_INLINE_CALL {
+        goOn(io_now, io_way, Lanes(io_now - io_last), by);
+        io_last = io_now;
+    };
+    for (const int i : balls) {
+        LaneMotion &now = io_motions.now[i], &way = io_motions.way[i], &last = io_motions.last[i];
+        go(now.velocity, way.velocity, last.velocity, share);
+        if constexpr (drags) go(now.spin, way.spin, last.spin, share);
+        if constexpr (parts) go(now.apart, way.apart, last.apart, apart_share);
+    }
+}
+
+/// The displacements are solved for as velocities are, in the same rounds, without friction.
+template <bool drags, bool parts>
+MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     using Batch = Crowd::Batch;
-    LaneEnds a, b;
-    for (const Batch& batch : io_batches) {
-        load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
-        applyFirst<drags>(batch.row, a, b);
-        store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
-    }
-    Pace pace(rounds);
+    LaneMotion* const motion = io_motions.now.data();
+    visit<drags, false>(io_batches, motion, [](Batch&, Row& row, LaneEnds& a, LaneEnds& b) MB_INLINE_CALL { applyFirst<drags>(row, a, b); });
+    for (const int i : balls) io_motions.last[i] = io_motions.now[i], io_motions.way[i] = {};
+    Pace pace(rounds), apart_pace(rounds);
     for (;;) {
-        Change<Lanes> changed;
-        for (Batch& batch : io_batches) {
-            load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
-            turn<drags>(batch.row, a, b, LaneVec{}, changed);
-            store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
-        }
-        if (!pace.more(changed)) return pace.made();
-        for (Batch& batch : io_batches) {
-            load<drags>(io_motion, batch.a, a), load<drags>(io_motion, batch.b, b);
-            goOn<drags>(batch.row, a, b, pace.share());
-            store<drags>(io_motion, batch.a, a), store<drags>(io_motion, batch.b, b);
-        }
+        Change<Lanes> changed, apart_changed;
+        const double share = pace.share(), apart_share = apart_pace.share();
+        visit<drags, parts>(io_batches, motion, [&](Batch& batch, Row& row, LaneEnds& a, LaneEnds& b) MB_INLINE_CALL {
+            goOn(row.push, batch.way, batch.step, share);
+            if constexpr (drags) goOn(row.drag, batch.drag_way, batch.drag_step, share);
+            const ImpulsesOf<Lanes, LaneVec> step = turn<drags>(row, a, b, LaneVec{}, changed);
+            batch.push = row.push, batch.step = step.push;
+            if constexpr (drags) batch.drag = row.drag, batch.drag_step = step.drag;
+            if constexpr (parts) {
+                goOn(batch.apart, batch.apart_way, batch.apart_step, apart_share);
+                ApartEnds apart_a{a.apart}, apart_b{b.apart};
+                batch.apart_step = turnPush(row, batch.apart, batch.apart_target, apart_a, apart_b, apart_changed);
+            }
+        });
+        const bool more = pace.more(changed), more_apart = parts && apart_pace.more(apart_changed);
+        if (!more && !more_apart) return pace.made();
+        goOnBodies<drags, parts>(balls, io_motions, pace.share(), apart_pace.share());
     }
 }
 
-using Rounds = int (*)(std::vector<Crowd::Batch>&, LaneMotion*, int);
-template <bool drags> int plainRounds(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
-    return roundsOf<drags>(io_batches, io_motion, rounds);
+using Rounds = int (*)(std::vector<Crowd::Batch>&, std::span<const int>, Crowd::Motions&, int);
+template <bool drags, bool parts> int plainRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+    return roundsOf<drags, parts>(io_batches, balls, io_motions, rounds);
 }
 #if defined(__x86_64__)
-template <bool drags>
-[[gnu::target("avx2")]] int wideRounds(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, int rounds) {
-    return roundsOf<drags>(io_batches, io_motion, rounds);
+template <bool drags, bool parts>
+[[gnu::target("avx2")]] int wideRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+    return roundsOf<drags, parts>(io_batches, balls, io_motions, rounds);
 }
 #endif
 
 /// The same text compiled twice; both do the same to the bit.
-template <bool drags> Rounds fastestRounds() {
+template <bool drags, bool parts> Rounds fastestRounds() {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return wideRounds<drags>;
+    if (__builtin_cpu_supports("avx2")) return wideRounds<drags, parts>;
 #endif
-    return plainRounds<drags>;
+    return plainRounds<drags, parts>;
 }
 
 }  // namespace
 
-void Crowd::set(std::span<const Body> bodies, std::span<const Contact> contacts, std::span<const std::uint32_t> numbers, Stages stages,
-                std::vector<std::uint64_t>& io_used) {
+void Crowd::set(const Motions& motions, std::span<const Contact> contacts, std::span<const std::uint32_t> numbers,
+                std::span<const double> apart, std::vector<std::uint64_t>& io_used) {
     constexpr int kColours = 64;  // the last is of those for whom there was none, each in a batch of its own
     std::array<std::uint32_t, kColours + 1> begin{};
     colours_.clear();
@@ -82,9 +128,6 @@ void Crowd::set(std::span<const Body> bodies, std::span<const Contact> contacts,
         a |= std::uint64_t{1} << colour, b |= std::uint64_t{1} << colour;
         colours_.push_back(static_cast<std::uint8_t>(colour)), ++begin[static_cast<std::size_t>(colour) + 1];
     }
-    for (const std::uint32_t number : numbers)
-        for (const int i : {contacts[number].a, contacts[number].b})
-            if (i != kStatic) io_used[static_cast<std::size_t>(i)] = 0;
     // Where each colour's batches begin, and how many lanes of its last are taken.
     std::array<std::uint32_t, kColours> lane{};
     std::uint32_t batches = 0;
@@ -100,59 +143,49 @@ void Crowd::set(std::span<const Body> bodies, std::span<const Contact> contacts,
         batches_[lane[colour] / kLanes].contact[lane[colour] % kLanes] = numbers[i];
         lane[colour] += colour + 1 < kColours ? 1 : kLanes;
     }
-    for (Batch& batch : batches_) fill(batch, bodies, contacts, stages.has(Stage::spin));
+    const int bodies = static_cast<int>(motions.way.size());
+    int still = 0;
+    for (Batch& batch : batches_) fill(batch, motions, contacts, apart, bodies + still++ % kStill);
 }
 
-/// Sets what a batch knows of its contacts' bodies. Where there is no contact, nothing is moved by anything.
-void Crowd::fill(Batch& io_batch, std::span<const Body> bodies, std::span<const Contact> contacts, bool spins) {
-    const int still = static_cast<int>(bodies.size());
-    auto& row = io_batch.row;
+/// Sets what a batch knows of its contacts and their bodies. Where there is no contact, nothing is moved by anything.
+void Crowd::fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart, int still) {
+    Batch& b = io_batch;
+    b.step = b.way = b.apart = b.apart_step = b.apart_way = Lanes{}, b.drag_step = b.drag_way = LaneVec{};
     for (int l = 0; l < kLanes; ++l) {
         const auto k = static_cast<std::size_t>(l);
-        if (io_batch.contact[k] == kNone) {
-            io_batch.a[k] = io_batch.b[k] = still;
-            setLane(row.normal, l, glm::dvec3{0}), setLane(row.drag, l, glm::dvec3{0});
-            row.inverse_a[l] = row.inverse_b[l] = row.radius_a[l] = row.radius_b[l] = row.turn_a[l] = row.turn_b[l] = 0;
-            row.normal_mass[l] = row.tangent_mass[l] = 1;
-            row.friction[l] = row.target[l] = row.push[l] = 0;
+        if (b.contact[k] == kNone) {
+            b.a[k] = b.b[k] = still;
+            setLane(b.normal, l, glm::dvec3{0}), setLane(b.drag, l, glm::dvec3{0});
+            b.normal_mass[l] = b.tangent_mass[l] = 1;
+            b.friction[l] = b.target[l] = b.push[l] = b.apart_target[l] = 0;
             continue;
         }
-        const Contact& c = contacts[io_batch.contact[k]];
-        const BallNumbers of(bodies, c);
-        io_batch.a[k] = c.a, io_batch.b[k] = c.b == kStatic ? still : c.b;
-        setLane(row.normal, l, c.normal);
-        row.inverse_a[l] = of.inverse_a, row.inverse_b[l] = of.inverse_b, row.normal_mass[l] = of.normalMass();
-        row.radius_a[l] = spins ? of.radius_a : 0, row.radius_b[l] = spins ? of.radius_b : 0;
-        row.turn_a[l] = spins ? of.turn_a : 0, row.turn_b[l] = spins ? of.turn_b : 0;
-        row.tangent_mass[l] = of.tangentMass(spins), row.friction[l] = c.pairing.friction;
+        const Contact& c = contacts[b.contact[k]];
+        b.a[k] = c.a, b.b[k] = c.b == kStatic ? still : c.b;
+        const LaneMotion &of_a = motions.now[static_cast<std::size_t>(b.a[k])], &of_b = motions.now[static_cast<std::size_t>(b.b[k])];
+        const BallNumbers of{of_a.velocity[3], of_b.velocity[3], of_a.apart[3], of_b.apart[3], of_a.spin[3], of_b.spin[3]};
+        b.normal_mass[l] = of.normalMass(), b.tangent_mass[l] = of.tangentMass();
+        setLane(b.normal, l, c.normal), setLane(b.drag, l, c.drag);
+        b.friction[l] = c.pairing.friction, b.target[l] = c.target, b.push[l] = c.push, b.apart_target[l] = apart[b.contact[k]];
     }
 }
 
-void Crowd::aim(std::span<const Contact> contacts) {
-    for (Batch& batch : batches_) {
-        auto& row = batch.row;
-        row.step = row.way = Lanes{}, row.drag_step = row.drag_way = LaneVec{};
-        for (int l = 0; l < kLanes; ++l) {
-            const std::uint32_t number = batch.contact[static_cast<std::size_t>(l)];
-            if (number == kNone) continue;
-            const Contact& c = contacts[number];
-            row.target[l] = c.target, row.push[l] = c.push;
-            setLane(row.drag, l, c.drag);
-        }
-    }
+int Crowd::solve(std::span<const int> balls, Motions& io_motions, int rounds, bool drags, bool parts) {
+    static const std::array<Rounds, 4> kRounds{fastestRounds<false, false>(), fastestRounds<false, true>(), fastestRounds<true, false>(), fastestRounds<true, true>()};
+    return kRounds[(drags ? 2 : 0) + (parts ? 1 : 0)](batches_, balls, io_motions, rounds);
 }
 
-int Crowd::solve(std::span<LaneMotion> motion, int rounds, bool drags) {
-    static const Rounds kSmooth = fastestRounds<false>(), kRough = fastestRounds<true>();
-    return (drags ? kRough : kSmooth)(batches_, motion.data(), rounds);
-}
-
-void Crowd::finish(std::span<Contact> contacts) const {
+void Crowd::finish(std::span<Contact> contacts, std::vector<std::uint64_t>& out_marks) const {
     for (const Batch& batch : batches_)
         for (int l = 0; l < kLanes; ++l) {
-            const std::uint32_t number = batch.contact[static_cast<std::size_t>(l)];
-            if (number == kNone) continue;
-            contacts[number].push = batch.row.push[l] + 0.0, contacts[number].drag = laneOf(batch.row.drag, l) + 0.0;  // of −0: 0
+            const auto k = static_cast<std::size_t>(l);
+            if (batch.contact[k] == kNone) continue;
+            Contact& c = contacts[batch.contact[k]];
+            c.push = batch.push[l] + 0.0, c.drag = laneOf(batch.drag, l) + 0.0;  // of −0: 0
+            if (c.push == 0) continue;
+            out_marks[static_cast<std::size_t>(c.a)] = 1;
+            if (c.b != kStatic) out_marks[static_cast<std::size_t>(c.b)] = 1;
         }
 }
 

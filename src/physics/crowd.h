@@ -2,16 +2,23 @@
 // Balls that lie on one another: a crowd. Its contacts are worked on four at a time.
 #include "physics/rows.h"
 
+#include <algorithm>
+
 namespace mb {
 
-/// What impulses change, as vectors of which the fourth number is not used.
-struct alignas(64) LaneMotion {
-    Lanes velocity{}, spin{};
-    void set(const Motion& m) {
-        velocity = Lanes{m.velocity.x, m.velocity.y, m.velocity.z, 0}, spin = Lanes{m.spin.x, m.spin.y, m.spin.z, 0};
+/// What impulses change of a ball, and how far it is pushed out of others, m. With each vector goes a number, of what never moves 0:
+/// the inverse mass, the radius over the moment of inertia, and the radius.
+struct alignas(32) LaneMotion {
+    Lanes velocity{}, spin{}, apart{};
+    /// `spins`: what does not has no lever.
+    void set(const Body& ball, const Motion& m, bool spins) {
+        velocity = Lanes{m.velocity.x, m.velocity.y, m.velocity.z, ball.inverse_mass};
+        spin = Lanes{m.spin.x, m.spin.y, m.spin.z, spins ? BallNumbers::turnOf(ball) : 0};
+        apart = Lanes{0, 0, 0, spins ? ball.radius : 0};
     }
     /// −0 becomes 0, as it does where nothing is added to it.
     Motion get() const { return {glm::dvec3{velocity[0], velocity[1], velocity[2]} + 0.0, glm::dvec3{spin[0], spin[1], spin[2]} + 0.0}; }
+    glm::dvec3 getApart() const { return glm::dvec3{apart[0], apart[1], apart[2]} + 0.0; }
 };
 
 /// The contacts of one island of balls, sorted so that the four of a batch have no ball in common: by colours of the graph whose
@@ -20,25 +27,35 @@ struct alignas(64) LaneMotion {
 class Crowd {
 public:
     struct Batch {
-        alignas(32) BallRowOf<true, Lanes, LaneVec> row;  // said, as a template's argument is not aligned as its type is
-        std::array<int, kLanes> a{}, b{};                  // bodies' numbers; of a static one, and where there is no contact, one more than all
+        LaneVec normal, drag, drag_step, drag_way;
+        Lanes normal_mass, tangent_mass, friction, target, push, step, way;
+        Lanes apart_target, apart, apart_step, apart_way;  // of the displacements, m
+        std::array<int, kLanes> a{}, b{};                  // bodies' numbers; of what never moves, and where there is no contact, more than all
         std::array<std::uint32_t, kLanes> contact{};       // its number; kNone: there is no contact
     };
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+    static constexpr int kStill = 16;                      // what never moves has so many numbers, for a batch not to wait for the one before
 
-    /// `numbers`: of the island's contacts among all. `used` is of as many elements as there are bodies, all 0, and is so again.
-    void set(std::span<const Body> bodies, std::span<const Contact> contacts, std::span<const std::uint32_t> numbers, Stages stages,
-             std::vector<std::uint64_t>& io_used);
-    /// Sets each row's target and the impulses it begins with.
-    void aim(std::span<const Contact> contacts);
-    /// Makes rounds, until the last changed no velocity by more than 1e-12 m/s; `motion` is of one element more than there are bodies.
-    /// `drags`: with friction. Returns how many were made.
-    int solve(std::span<LaneMotion> motion, int rounds, bool drags);
-    /// Gives the impulses back to the contacts.
-    void finish(std::span<Contact> contacts) const;
+    /// Of each body, by its number, and behind them of what never moves. `now` is given, of the crowd's balls, and changed.
+    struct Motions {
+        std::vector<LaneMotion> now, way, last;            // way and last: how the rounds go
+        void resize(std::size_t bodies) {
+            now.resize(bodies + kStill), way.resize(bodies), last.resize(bodies);
+            std::fill(now.end() - kStill, now.end(), LaneMotion{});
+        }
+    };
+    /// `numbers`: of the island's contacts among all; `apart`: how far each of all is to part, in metres. `used` is of as many elements as
+    /// there are bodies, all 0 of the balls'.
+    void set(const Motions& motions, std::span<const Contact> contacts, std::span<const std::uint32_t> numbers,
+             std::span<const double> apart, std::vector<std::uint64_t>& io_used);
+    /// Makes rounds, until the last changed no velocity by more than 1e-12 m/s, and nothing is moved by more than as many metres.
+    /// `balls`: all that the contacts have. `drags`: with friction; `parts`: what overlaps is moved apart too. Returns how many were made.
+    int solve(std::span<const int> balls, Motions& io_motions, int rounds, bool drags, bool parts);
+    /// Gives the impulses back to the contacts, and marks the bodies that are pushed.
+    void finish(std::span<Contact> contacts, std::vector<std::uint64_t>& out_marks) const;
 
 private:
-    static void fill(Batch& io_batch, std::span<const Body> bodies, std::span<const Contact> contacts, bool spins);
+    static void fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart, int still);
 
     std::vector<Batch> batches_;
     std::vector<std::uint8_t> colours_;                    // of the contacts

@@ -111,7 +111,7 @@ void PhysicsWorld::addBody(const Scene& scene, std::size_t object, std::vector<M
     b.spin = o.spin + glm::dvec3{0};  // −0 becomes 0, as it would where spin is summed
     b.radius = m.radius, b.inner = m.solid ? m.solid->inner : m.radius;
     b.inverse_mass = 1 / m.mass, b.inertia = m.inertia, b.inverse_inertia = glm::inverse(m.inertia);
-    b.restitution = o.restitution, b.friction = o.friction, b.rolling = o.rolling, b.spinning = o.spinning;
+    if (const OwnSurface own{o.restitution, o.friction, o.rolling, o.spinning}; own != OwnSurface{}) b.own = std::make_shared<const OwnSurface>(own);
     bodies_.push_back(std::move(b));
     near_.emplace_back();
 }
@@ -137,6 +137,7 @@ void PhysicsWorld::changeStatics(const Scene& scene) {
 
 void PhysicsWorld::countShapes() {
     shapes_ = static_cast<int>(std::ranges::count_if(bodies_, [](const Body& b) { return !b.isBall(); }));
+    owners_ = static_cast<int>(std::ranges::count_if(bodies_, [](const Body& b) { return b.own != nullptr; }));
 }
 
 /// Asks the table of effects about the bodies and solids there are, as records of a scene.
@@ -148,8 +149,8 @@ void PhysicsWorld::compose() {
         const Body& b = bodies_[i];
         Object& o = scene.objects[i];
         o.type = findShapeType(b.isBall() ? "sphere" : "box");  // for any shape
-        o.mass = b.mass(), o.spin = b.spin, o.restitution = b.restitution, o.friction = b.friction;
-        o.rolling = b.rolling, o.spinning = b.spinning;
+        o.mass = b.mass(), o.spin = b.spin;
+        if (b.own) o.restitution = b.own->restitution, o.friction = b.own->friction, o.rolling = b.own->rolling, o.spinning = b.own->spinning;
     }
     countShapes();
     stages_ = choice_.from(calledFor(scene));

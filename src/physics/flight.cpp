@@ -12,27 +12,14 @@ namespace {
 
 // Of the depth: a ball's gap is known to rounding; of two curved shapes the lowest place is looked for, and not met exactly.
 constexpr double kBallNoise = 1e-3, kShapeNoise = 0.25;
+// Of the radius: a ball that was struck on its way, and gets no further before the part ends, meets what it meets then in the next
+// one. Else a fast ball that falls into a pile would be felt through all of it within a part, impact by impact.
+constexpr double kStruck = 0.02;
+
+glm::dvec3 positionAfter(const Body& b, const glm::dvec3& acceleration, double time) {
+    return b.position + time * b.velocity + (0.5 * time * time) * acceleration;
+}
 }  // namespace
-
-double travelOf(const Body& body, const FlightRules& rules) {
-    const double h = rules.duration;
-    return (glm::length(body.velocity) + turningSpeed(body) + std::fabs(rules.world.gravity) * h) * h;
-}
-
-double travelBetween(const Body& a, const Body& b, const FlightRules& rules) {
-    const double h = rules.duration;
-    return (glm::length(a.velocity - b.velocity) + turningSpeed(a) + turningSpeed(b) + std::fabs(rules.world.gravity) * h) * h;
-}
-
-bool metInFlight(const Body& a, const FlightRules& rules, double travel) {
-    if (a.isBall() && pairing(rules.world, a).restitution != 0) return true;
-    return rules.stages.has(Stage::continuous) && travel > kNear * a.inner;
-}
-
-bool metInFlight(const Body& a, const Body& b, const FlightRules& rules, double travel) {
-    if (a.isBall() && b.isBall() && pairing(rules.world, a, b).restitution != 0) return true;
-    return rules.stages.has(Stage::continuous) && travel > kNear * std::min(a.inner, b.inner);
-}
 
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
                std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts)
@@ -68,15 +55,13 @@ bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules) {
     return 2 * furthest > kNear * thinnest;
 }
 
-void Flight::run(bool meets) {
-    if (meets) {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
-        std::vector<double> travel;
-        for (const Body& b : bodies_) travel.push_back(b.isBall() && pairing(rules_.world, b).restitution != 0 ? INFINITY : travelOf(b, rules_));
-        for (const auto& [i, j] : pairs_) {
-            const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
-            if (travel[k] + travel[l] > kNear * std::min(bodies_[k].inner, bodies_[l].inner)) expectPair(k, l);
-        }
+void Flight::run() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) expectStatic(i);
+    std::vector<double> travel;
+    for (const Body& b : bodies_) travel.push_back(b.isBall() && pairing(rules_.world, b).restitution != 0 ? INFINITY : travelOf(b, rules_));
+    for (const auto& [i, j] : pairs_) {
+        const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+        if (travel[k] + travel[l] > kNear * std::min(bodies_[k].inner, bodies_[l].inner)) expectPair(k, l);
     }
     if (!events_.empty()) motion_.resize(bodies_.size()), rememberReach();
     while (!events_.empty()) {
@@ -91,8 +76,7 @@ void Flight::run(bool meets) {
 
 glm::dvec3 Flight::positionAt(std::size_t i, double t) const {
     if (paths_[i].held || !bodies_[i].awake) return bodies_[i].position;
-    const double s = t - paths_[i].time;
-    return bodies_[i].position + s * bodies_[i].velocity + (0.5 * s * s) * paths_[i].acceleration;
+    return positionAfter(bodies_[i], paths_[i].acceleration, t - paths_[i].time);
 }
 
 /// Where a body is at a time, turned as it will be.
@@ -136,26 +120,22 @@ glm::dvec3 Flight::velocityAt(std::size_t i, double t) const {
     return bodies_[i].velocity + (t - paths_[i].time) * paths_[i].acceleration;
 }
 
+void advance(Body& io_body, const Motion& acceleration, double time, bool spins, StepCounts& io_counts) {
+    if (!(time > 0) || !io_body.awake) return;
+    ++io_counts.integrations;
+    io_body.position = positionAfter(io_body, acceleration.velocity, time);
+    io_body.velocity += time * acceleration.velocity;
+    if (!spins) return;
+    ++io_counts.turned;
+    const glm::dvec3 half = (0.5 * time) * acceleration.spin;
+    io_body.spin += half;
+    turnFreely(io_body, io_body.orientation, io_body.spin, time);
+    io_body.spin += half;
+}
+
 void Flight::advance(std::size_t i, double t) {
     Path& path = paths_[i];
-    Body& b = bodies_[i];
-    const double s = t - path.time;
-    if (s > 0 && !path.held && b.awake) {
-        ++counts_.integrations;
-        b.position = positionAt(i, t);
-        b.velocity += s * path.acceleration;
-        if (has(Stage::spin)) {
-            ++counts_.turned;
-            if (b.isBall()) {
-                b.orientation = turned(b.orientation, b.spin + (0.5 * s) * path.turning, s);
-                b.spin += s * path.turning;
-            } else {
-                b.spin += (0.5 * s) * path.turning;
-                turnFreely(b, b.orientation, b.spin, s);
-                b.spin += (0.5 * s) * path.turning;
-            }
-        }
-    }
+    if (!path.held) mb::advance(bodies_[i], {path.acceleration, path.turning}, t - path.time, has(Stage::spin), counts_);
     path.time = t;
 }
 
@@ -164,9 +144,9 @@ void Flight::expectStatic(std::size_t i) {
     if (!has(Stage::static_contacts) || field_.empty() || paths_[i].held || !bodies_[i].awake) return;
     const Body& b = bodies_[i];
     if (!b.isBall()) return expectStaticOfShape(i);
-    if (paths_[i].events == 0 && !metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration;
     const double speed = glm::length(b.velocity) + (to - from) * glm::length(paths_[i].acceleration);
+    if (!metInFlight(b, rules_) && (paths_[i].events == 0 || speed * (to - from) <= kStruck * b.inner)) return;
     const ApproachLimits limits{speed, kNear * b.radius, rules_.bounce, restDepth(b.inner), kBallNoise};
     if (rules_.proofs && noStaticAhead(i, to - from, limits)) return;
     const auto gap_at = [&](double t) {
@@ -199,7 +179,8 @@ bool Flight::noStaticAhead(std::size_t i, double duration, const ApproachLimits&
 void Flight::expectPair(std::size_t i, std::size_t j) {
     if (!bodies_[i].awake && !bodies_[j].awake) return;
     if (!bodies_[i].isBall() || !bodies_[j].isBall()) return expectPairOfShapes(i, j);
-    if (paths_[i].events == 0 && paths_[j].events == 0 && !metInFlight(bodies_[i], bodies_[j], rules_)) return;
+    const bool struck = paths_[i].events != 0 || paths_[j].events != 0, met = metInFlight(bodies_[i], bodies_[j], rules_);
+    if (!met && !struck) return;
     const double sum = bodies_[i].radius + bodies_[j].radius;
     const double from = std::max(paths_[i].time, paths_[j].time), to = rules_.duration;
     const auto gap_at = [&](double t) {
@@ -213,6 +194,7 @@ void Flight::expectPair(std::size_t i, std::size_t j) {
                             (paths_[j].held || !bodies_[j].awake ? glm::dvec3{0} : paths_[j].acceleration);
     const double speed = glm::length(velocityAt(i, from) - velocityAt(j, from)) + (to - from) * glm::length(bend);
     const double smaller = std::min(bodies_[i].radius, bodies_[j].radius);
+    if (!met && speed * (to - from) <= kStruck * smaller) return;
     const double stride = bend == glm::dvec3{0} ? speed * (to - from) : kNear * smaller;
     const ApproachLimits limits{speed, stride, rules_.bounce, restDepth(smaller), kBallNoise};
     ++counts_.body_gaps;

@@ -7,6 +7,7 @@
 //
 // Impacts are looked for along the paths of balls that bounce, and of whatever is so fast that it might pass through something.
 // The others' are met at the start of the part, by contacts that look ahead (rest.cpp, crowd.cpp).
+#include "core/effects/effect.h"
 #include "physics/approach.h"
 #include "physics/broadphase.h"
 #include "physics/collide.h"
@@ -29,15 +30,29 @@ struct FlightRules {
 /// faster than its centre.
 inline double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
 /// How far a point of the body may get in a part, m; and one of a against one of b.
-double travelOf(const Body& body, const FlightRules& rules);
-double travelBetween(const Body& a, const Body& b, const FlightRules& rules);
+inline double travelOf(const Body& body, const FlightRules& rules) {
+    const double h = rules.duration;
+    return (glm::length(body.velocity) + turningSpeed(body) + std::fabs(rules.world.gravity) * h) * h;
+}
+inline double travelBetween(const Body& a, const Body& b, const FlightRules& rules, bool balls = false) {
+    const double h = rules.duration, turning = balls ? 0 : turningSpeed(a) + turningSpeed(b);
+    return (glm::length(a.velocity - b.velocity) + turning + std::fabs(rules.world.gravity) * h) * h;
+}
 /// Whether a contact of the two, or of a with what does not move, is met in flight: balls that bounce, and what is fast. (What
 /// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew.)
-/// `travel`: of the two against one another, travelOf() or travelBetween().
-bool metInFlight(const Body& a, const FlightRules& rules, double travel);
-bool metInFlight(const Body& a, const Body& b, const FlightRules& rules, double travel);
+/// `balls`: nothing else has a part in it; `inner`: the lesser; `travel`: of the two against one another, travelOf() or travelBetween().
+inline bool metInFlight(bool balls, double inner, const Pairing& pairing, const FlightRules& rules, double travel) {
+    return (balls && pairing.restitution != 0) || (rules.stages.has(Stage::continuous) && travel > kNear * inner);
+}
+inline bool metInFlight(const Body& a, const FlightRules& rules, double travel) {
+    return metInFlight(a.isBall(), a.inner, pairing(rules.world, a), rules, travel);
+}
 inline bool metInFlight(const Body& a, const FlightRules& rules) { return metInFlight(a, rules, travelOf(a, rules)); }
-inline bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) { return metInFlight(a, b, rules, travelBetween(a, b, rules)); }
+inline bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
+    return metInFlight(a.isBall() && b.isBall(), std::min(a.inner, b.inner), pairing(rules.world, a, b), rules, travelBetween(a, b, rules));
+}
+/// Moves a body that meets nothing: at that acceleration (m/s², rad/s²) for a time, exactly but for a shape's turning.
+void advance(Body& io_body, const Motion& acceleration, double time, bool spins, StepCounts& io_counts);
 /// False only if nothing at all is.
 bool anyMetInFlight(std::span<const Body> bodies, const FlightRules& rules);
 
@@ -47,8 +62,8 @@ public:
     /// until then.
     Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
            std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts);
-    /// Moves every body to the end of the part. `meets`: impacts are looked for on the way (anyMetInFlight).
-    void run(bool meets);
+    /// Moves every body to the end of the part.
+    void run();
 
     int impacts = 0;
     int held = 0;             // bodies that met more than fits into one part: they wait for the next where they are

@@ -8,6 +8,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // what is passed in registers is inlined, and has no convention to keep
 
 #define MB_INLINE [[gnu::always_inline]] inline
+#define MB_INLINE_CALL __attribute__((always_inline))  // of a lambda, behind what it takes
 
 namespace mb {
 
@@ -41,16 +42,17 @@ MB_INLINE LaneVec cross(const LaneVec& a, const LaneVec& b) {
 MB_INLINE void setLane(LaneVec& io_v, int lane, const glm::dvec3& v) { io_v.x[lane] = v.x, io_v.y[lane] = v.y, io_v.z[lane] = v.z; }
 MB_INLINE glm::dvec3 laneOf(const LaneVec& v, int lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
 
-/// x, y and z of four vectors that lie each in a register of its own, and back; the fourth of each stays as it is.
-MB_INLINE LaneVec transposed(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+/// x, y and z of four vectors that lie each in a register of its own, with a number w, and back.
+MB_INLINE LaneVec transposed(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, Lanes& out_w) {
     const Lanes ab_lo = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_hi = __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const Lanes cd_lo = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_hi = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    out_w = __builtin_shufflevector(ab_hi, cd_hi, 2, 3, 6, 7);
     return {__builtin_shufflevector(ab_lo, cd_lo, 0, 1, 4, 5), __builtin_shufflevector(ab_hi, cd_hi, 0, 1, 4, 5),
             __builtin_shufflevector(ab_lo, cd_lo, 2, 3, 6, 7)};
 }
-MB_INLINE void transposeBack(const LaneVec& v, Lanes& out_a, Lanes& out_b, Lanes& out_c, Lanes& out_d) {
-    const Lanes none{}, xy_lo = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6), xy_hi = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);
-    const Lanes z_lo = __builtin_shufflevector(v.z, none, 0, 4, 2, 6), z_hi = __builtin_shufflevector(v.z, none, 1, 5, 3, 7);
+MB_INLINE void transposeBack(const LaneVec& v, const Lanes& w, Lanes& out_a, Lanes& out_b, Lanes& out_c, Lanes& out_d) {
+    const Lanes xy_lo = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6), xy_hi = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);
+    const Lanes z_lo = __builtin_shufflevector(v.z, w, 0, 4, 2, 6), z_hi = __builtin_shufflevector(v.z, w, 1, 5, 3, 7);
     out_a = __builtin_shufflevector(xy_lo, z_lo, 0, 1, 4, 5), out_b = __builtin_shufflevector(xy_hi, z_hi, 0, 1, 4, 5);
     out_c = __builtin_shufflevector(xy_lo, z_lo, 2, 3, 6, 7), out_d = __builtin_shufflevector(xy_hi, z_hi, 2, 3, 6, 7);
 }

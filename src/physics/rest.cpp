@@ -21,12 +21,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// How deep two bodies may rest in one another, m.
-double PhysicsWorld::depthOf(const Contact& c) const {
-    const double a = bodies_[at(c.a)].inner;
-    return restDepth(c.b == kStatic ? a : std::min(a, bodies_[at(c.b)].inner));
-}
-
 /// Bodies that touch sleep and wake together: an island sleeps when each of them has been still for long enough.
 void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     ++counts_.islands;
@@ -41,11 +35,10 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     }
 }
 
-/// Sets a contact's target, in metres in place of metres a second; says whether it overlaps.
-bool PhysicsWorld::aimApart(Contact& io_c) const {
-    const double deep = -io_c.gap - 0.5 * depthOf(io_c);
-    io_c.target = deep > 0 ? knobs_.push_out * deep : deep;
-    return deep > 0;
+/// How far the bodies of a contact are to be moved apart in a part, m; below 0: how far they may come nearer.
+double PhysicsWorld::apartOf(const Contact& c) const {
+    const double deep = -c.gap - 0.5 * c.depth;
+    return deep > 0 ? knobs_.push_out * deep : deep;
 }
 
 void PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
@@ -56,17 +49,31 @@ void PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
     if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, by.spin, share);
 }
 
+/// The numbers of the bodies of contacts, each once; `scratch_.motion` has a place for each.
+std::span<const int> PhysicsWorld::membersOf(std::span<const Contact> contacts) {
+    Scratch& s = scratch_;
+    s.motion.resize(bodies_.size()), s.used.resize(bodies_.size(), 0);
+    s.members.clear();
+    for (const Contact& c : contacts)
+        for (const int i : {c.a, c.b})
+            if (i != kStatic && s.used[at(i)] == 0) s.used[at(i)] = 1, s.members.push_back(i);
+    for (const int i : s.members) s.used[at(i)] = 0;
+    return s.members;
+}
+
 /// Moves overlapping bodies apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
 /// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
 void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     // The displacements are solved for as velocities are, without friction.
     bool any = false;
-    for (Contact& c : io_contacts) any = aimApart(c) || any;
+    for (Contact& c : io_contacts) c.target = apartOf(c), any = any || c.target > 0;
     if (!any) return;
-    std::vector<Motion> moved(bodies_.size());
+    const std::span<const int> members = membersOf(io_contacts);
+    std::vector<Motion>& moved = scratch_.motion;
+    for (const int i : members) moved[at(i)] = {};
     solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
     for (Contact& c : io_contacts) c.push = 0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) move(bodies_[i], moved[i], h);
+    for (const int i : members) move(bodies_[at(i)], moved[at(i)], h);
 }
 
 /// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
@@ -85,10 +92,11 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
         any = any || approach > 1e-12 - c.target;
     }
     if (!any) return;
-    std::vector<Motion> motion(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) motion[i] = motionOf(bodies_[i]);
+    const std::span<const int> members = membersOf(contacts);
+    std::vector<Motion>& motion = scratch_.motion;
+    for (const int i : members) motion[at(i)] = motionOf(bodies_[at(i)]);
     solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = motion[i].velocity, bodies_[i].spin = motion[i].spin;
+    for (const int i : members) bodies_[at(i)].velocity = motion[at(i)].velocity, bodies_[at(i)].spin = motion[at(i)].spin;
 }
 
 /// The same contacts with the normals that balls will have half-way through the part; those that will have parted are left out.
@@ -149,14 +157,14 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
 /// Whether an impulse kept from the last part is this contact's: found from the same point, or at about the same place. Of a ball
 /// the normal alone tells.
 bool PhysicsWorld::isOf(const Kept& kept, const Contact& c) const {
-    if (bodies_[at(c.a)].isBall()) return glm::dot(kept.normal, c.normal) >= 0.98;
+    if (allBalls() || bodies_[at(c.a)].isBall()) return glm::dot(kept.normal, c.normal) >= 0.98;
     const bool same_place = glm::length(kept.arm - c.arm_a) <= 0.05 * bodies_[at(c.a)].radius;
     return (kept.feature == c.feature || same_place) && glm::dot(kept.normal, c.normal) >= 0.9;
 }
 
 /// The impulses kept of the contact's pair.
 PhysicsWorld::Range PhysicsWorld::keptOf(const Contact& c) const {
-    const std::uint32_t b = c.b == kStatic ? 0 : bodies_[at(c.b)].object.value;
+    const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[at(c.b)];
     Range range{kept_begin_[at(c.a)], kept_begin_[at(c.a) + 1]};
     while (range.begin < range.end && kept_[range.begin].b != b) ++range.begin;
     std::size_t end = range.begin;
@@ -213,8 +221,7 @@ void PhysicsWorld::keep(std::span<const Contact> carried, std::span<const Contac
     kept_.resize(kept_begin_.back());
     std::vector<std::uint32_t> next = kept_begin_;
     each([&](const Contact& c) {
-        kept_[next[at(c.a)]++] = {bodies_[at(c.a)].object.value, c.b == kStatic ? 0 : bodies_[at(c.b)].object.value, c.feature, c.normal,
-                                  c.arm_a, c.push, c.drag, c.twist};
+        kept_[next[at(c.a)]++] = {scratch_.ids[at(c.a)], c.b == kStatic ? 0 : scratch_.ids[at(c.b)], c.feature, c.normal, c.arm_a, c.push, c.drag, c.twist};
     });
 }
 
@@ -242,18 +249,13 @@ std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, doub
     std::vector<Contact> midway = atMidway(contacts, h);
     setTargets(midway, h);
     takeKept(midway);
-    std::vector<Motion> after(bodies_.size());
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) after[i] = {bodies_[i].velocity + world_.fall() * h, bodies_[i].spin};
-    std::vector<char> carried(bodies_.size(), 0);
-    for (const Contact& c : midway) {
-        carried[at(c.a)] = 1;
-        if (c.b != kStatic) carried[at(c.b)] = 1;
-    }
+    const std::span<const int> members = membersOf(midway);
+    std::vector<Motion>& after = scratch_.motion;
+    for (const int i : members) after[at(i)] = {bodies_[at(i)].velocity + world_.fall() * h, bodies_[at(i)].spin};
     solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (!bodies_[i].awake || !carried[i]) continue;
-        io_accelerations[i] = {(after[i].velocity - bodies_[i].velocity) / h, (after[i].spin - bodies_[i].spin) / h};
+    for (const int i : members) {
+        const Body& b = bodies_[at(i)];
+        io_accelerations[at(i)] = {(after[at(i)].velocity - b.velocity) / h, (after[at(i)].spin - b.spin) / h};
     }
     return midway;
 }
@@ -263,8 +265,7 @@ std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, doub
 void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
     std::vector<char> touches(bodies_.size(), world_.gravity == 0), deep(bodies_.size(), 0);
     for (const Contact& c : contacts) {
-        const double depth = depthOf(c);
-        const bool touching = c.gap <= depth, overlaps = c.gap < -2 * depth;
+        const bool touching = c.gap <= c.depth, overlaps = c.gap < -2 * c.depth;
         touches[at(c.a)] |= touching, deep[at(c.a)] |= overlaps;
         if (c.b != kStatic) touches[at(c.b)] |= touching, deep[at(c.b)] |= overlaps;
     }

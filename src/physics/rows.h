@@ -11,14 +11,17 @@ namespace mb {
 
 using glm::cross, glm::dot;
 
+/// The impulses of a contact, or what they change by.
+template <class S, class V> struct ImpulsesOf {
+    S push{};
+    V drag{};
+};
+
 /// What every row has, in doubles, or in lanes of as many contacts at once (lanes.h).
-template <class S, class V> struct RowOf {
+template <class S, class V> struct RowOf : ImpulsesOf<S, V> {
     V normal{};
     S normal_mass{}, inverse_a{}, inverse_b{};  // inverse masses; 0: static
-    S target{}, push{};
-    S step{}, way{};                            // of the push: what the last turn added, and the way the rounds go (goOn)
-    S friction{};
-    V drag{}, drag_step{}, drag_way{};
+    S friction{}, target{};
 
     template <class M> MB_INLINE void pushBy(const S& impulse, M& io_a, M& io_b) const {
         io_a.velocity = io_a.velocity + (impulse * inverse_a) * normal;
@@ -41,6 +44,8 @@ template <bool spins, class S, class V> struct BallRowOf : RowOf<S, V> {
     S turn_a{}, turn_b{};                       // radius / moment of inertia
     S tangent_mass{};
 
+    /// By how much a normal impulse of 1 changes the approach.
+    MB_INLINE S give() const { return inverse_a + inverse_b; }
     template <class M> MB_INLINE S approach(const M& a, const M& b) const { return dot(a.velocity - b.velocity, normal); }
     template <class M> MB_INLINE V slipping(const M& a, const M& b) const {
         const V v = a.velocity - b.velocity, along = v - dot(v, normal) * normal;
@@ -62,31 +67,37 @@ template <bool spins, class S, class V> struct BallRowOf : RowOf<S, V> {
 
 /// What the row needs of a contact of balls: its bodies' masses and radii.
 struct BallNumbers {
-    double inverse_a, inverse_b = 0, radius_a, radius_b = 0, turn_a, turn_b = 0;
-    BallNumbers(std::span<const Body> bodies, const Contact& c) {
-        const Body& a = bodies[static_cast<std::size_t>(c.a)];
-        inverse_a = a.inverse_mass, radius_a = a.radius, turn_a = a.radius * a.inverse_inertia[0][0];
-        if (c.b == kStatic) return;
-        const Body& b = bodies[static_cast<std::size_t>(c.b)];
-        inverse_b = b.inverse_mass, radius_b = b.radius, turn_b = b.radius * b.inverse_inertia[0][0];
+    double inverse_a = 0, inverse_b = 0, radius_a = 0, radius_b = 0, turn_a = 0, turn_b = 0;
+    static BallNumbers of(std::span<const Body> bodies, const Contact& c, bool spins) {
+        BallNumbers n{};
+        const auto set = [&](int body, double& out_inverse, double& out_radius, double& out_turn) {
+            const Body& b = bodies[static_cast<std::size_t>(body)];
+            out_inverse = b.inverse_mass;
+            if (spins) out_radius = b.radius, out_turn = turnOf(b);
+        };
+        set(c.a, n.inverse_a, n.radius_a, n.turn_a);
+        if (c.b != kStatic) set(c.b, n.inverse_b, n.radius_b, n.turn_b);
+        return n;
     }
+    static double turnOf(const Body& ball) { return ball.radius * ball.inverse_inertia[0][0]; }
     double normalMass() const { return 1 / (inverse_a + inverse_b); }
-    double tangentMass(bool spins) const { return 1 / (inverse_a + inverse_b + (spins ? radius_a * turn_a + radius_b * turn_b : 0)); }
+    double tangentMass() const { return 1 / (inverse_a + inverse_b + (radius_a * turn_a + radius_b * turn_b)); }
 };
 
 /// A contact and the two it moves. The impulses are the row's until finish() gives them back to the contact.
 struct Ends {
     Contact* contact;
     Motion *a, *b;                              // b of a static one: a motion that nothing changes
+    ImpulsesOf<double, glm::dvec3> step{}, way{};  // what the last turn added, and the way the rounds go (goOn)
 };
 
 template <bool spins> struct BallRow : BallRowOf<spins, double, glm::dvec3>, Ends {
     BallRow(std::span<const Body> bodies, Contact& c, Motion& of_a, Motion& of_b) : Ends{&c, &of_a, &of_b} {
-        const BallNumbers numbers(bodies, c);
+        const BallNumbers numbers = BallNumbers::of(bodies, c, spins);
         this->inverse_a = numbers.inverse_a, this->inverse_b = numbers.inverse_b;
         this->radius_a = numbers.radius_a, this->radius_b = numbers.radius_b;
         this->turn_a = numbers.turn_a, this->turn_b = numbers.turn_b;
-        this->normal_mass = numbers.normalMass(), this->tangent_mass = numbers.tangentMass(spins);
+        this->normal_mass = numbers.normalMass(), this->tangent_mass = numbers.tangentMass();
     }
 };
 
@@ -96,6 +107,7 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
     glm::dmat3 turning_a{0}, turning_b{0};      // inverse inertia, in the world's frame
     glm::dvec3 turn_a{0}, turn_b{0};            // by a normal impulse of 1
     glm::dvec3 t{0}, u{0};                      // unit tangents
+    double normal_give = 0;                     // 1 / normal_mass
     double tt = 0, tu = 0, uu = 0;              // of the inverse of the matrix from tangential impulses to slips
     double twist = 0, twist_mass = 0;           // N·m·s, about the normal; kg·m², 0: the contact is a point
 
@@ -108,7 +120,7 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
             inverse_b = body_b.inverse_mass;
             if (spins) turning_b = body_b.worldInverseInertia(), turn_b = turning_b * glm::cross(arm_b, normal);
         }
-        normal_mass = 1 / glm::dot(normal, response(normal));
+        normal_give = glm::dot(normal, response(normal)), normal_mass = 1 / normal_give;
         if (spins && c.patch > 0) twist = c.twist, twist_mass = 1 / glm::dot(normal, (turning_a + turning_b) * normal);
         const glm::dvec3 size = glm::abs(normal);
         t = glm::normalize(glm::cross(normal, size.x < 0.6 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0})), u = glm::cross(normal, t);
@@ -129,6 +141,7 @@ template <bool spins> struct LeverRow : RowOf<double, glm::dvec3>, Ends {
         if constexpr (!spins) return of_a.velocity - of_b.velocity;
         return (of_a.velocity + glm::cross(of_a.spin, arm_a)) - (of_b.velocity + glm::cross(of_b.spin, arm_b));
     }
+    double give() const { return normal_give; }
     double approach(const Motion& of_a, const Motion& of_b) const { return glm::dot(velocity(of_a, of_b), normal); }
     glm::dvec3 slipping(const Motion& of_a, const Motion& of_b) const {
         const glm::dvec3 v = velocity(of_a, of_b);
@@ -189,41 +202,42 @@ template <class S> struct Change {
     MB_INLINE void add(const S& by_fastest, const S& by_energy) { fastest = larger(fastest, by_fastest), energy = energy + by_energy; }
 };
 
-/// One turn towards the row's target, and no slip but `slip`.
+/// One turn of a push along the row's normal towards its target. Returns what it added.
+template <class Row, class S, class M>
+MB_INLINE S turnPush(const Row& row, S& io_push, const S& target, M& io_a, M& io_b, Change<S>& io_change) {
+    const S pushed = larger(io_push + row.normal_mass * (target - row.approach(io_a, io_b)), all<S>(0)), step = pushed - io_push;
+    io_push = pushed;
+    row.pushBy(step, io_a, io_b);
+    const S by = row.give() * step;
+    io_change.add(by * by, step * by);
+    return step;
+}
+/// One turn towards the row's target, and no slip but `slip`. Returns what it added.
 template <bool drags, class Row, class M, class S, class V>
-MB_INLINE void turn(Row& io_row, M& io_a, M& io_b, const V& slip, Change<S>& io_change) {
-    const S pushed = larger(io_row.push + io_row.normal_mass * (io_row.target - io_row.approach(io_a, io_b)), all<S>(0));
-    io_row.step = pushed - io_row.push, io_row.push = pushed;
-    io_row.pushBy(io_row.step, io_a, io_b);
-    const S by = io_row.step / io_row.normal_mass;
-    io_change.add(by * by, io_row.step * by);
+MB_INLINE ImpulsesOf<S, V> turn(Row& io_row, M& io_a, M& io_b, const V& slip, Change<S>& io_change) {
+    ImpulsesOf<S, V> step;
+    step.push = turnPush<Row, S>(io_row, io_row.push, io_row.target, io_a, io_b, io_change);
     if constexpr (drags) {
-        if (isSmooth(io_row.friction)) return;
+        if (isSmooth(io_row.friction)) return step;
         if constexpr (requires { io_row.twist_mass; }) io_row.turnTwist(io_a, io_b);
         const V drag = io_row.dragWithin(slip - io_row.slipping(io_a, io_b), io_row.friction * io_row.push);
-        io_row.drag_step = drag - io_row.drag, io_row.drag = drag;
-        io_row.dragBy(io_row.drag_step, io_a, io_b);
-        const S square = dot(io_row.drag_step, io_row.drag_step), inverse = io_row.inverse_a + io_row.inverse_b;
-        io_change.add(inverse * inverse * square, square / io_row.normal_mass);
+        step.drag = drag - io_row.drag, io_row.drag = drag;
+        io_row.dragBy(step.drag, io_a, io_b);
+        const S square = dot(step.drag, step.drag), inverse = io_row.inverse_a + io_row.inverse_b;
+        io_change.add(inverse * inverse * square, io_row.give() * square);
     }
+    return step;
 }
 
 /// Goes on in the way the rounds have gone: a share of the last way, and to it the last turn's step is added. The next turn brings
 /// back what goes too far. With Fletcher's and Reeves' share, what the last round changed over what the one before did, these are
 /// the nonsmooth nonlinear conjugate gradients of Silcowitz, Niebe, Erleben, "A Nonsmooth Nonlinear Conjugate Gradient Method for
-/// Interactive Contact Force Problems" (2010). A share of 0 begins anew.
-template <bool drags, class Row, class M> MB_INLINE void goOn(Row& io_row, M& io_a, M& io_b, double share) {
-    io_row.way = io_row.way * share;
-    io_row.push = io_row.push + io_row.way, io_row.pushBy(io_row.way, io_a, io_b);
-    io_row.way = io_row.way + io_row.step;
-    if constexpr (drags) {
-        if (isSmooth(io_row.friction)) return;
-        io_row.drag_way = share * io_row.drag_way;
-        io_row.drag = io_row.drag + io_row.drag_way, io_row.dragBy(io_row.drag_way, io_a, io_b);
-        io_row.drag_way = io_row.drag_way + io_row.drag_step;
-    }
+/// Interactive Contact Force Problems" (2010). A share of 0 begins anew. Returns what it added, of which the motion is to follow.
+template <class T> MB_INLINE T goOn(T& io_sum, T& io_way, const T& step, double share) {
+    const T by = share * io_way;
+    io_sum = io_sum + by, io_way = by + step;
+    return by;
 }
-
 inline constexpr double kSettled = 1e-24;  // m²/s²: rounds end that change no velocity by more than the root
 
 /// How long rounds go on, and how far each goes on in the way of those before. Where much lies on little, rounds alone creep.

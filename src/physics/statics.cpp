@@ -26,16 +26,10 @@ StaticField::StaticField(const Scene& scene, const std::function<bool(std::size_
         solid_of_.push_back(static_cast<std::size_t>(std::ranges::upper_bound(objects, leaf.index) - objects.begin() - 1));
 }
 
-/// Those that may have a surface within reach of the centre, in order.
-std::vector<std::size_t> StaticField::solidsNear(glm::dvec3 centre, double reach) const {
-    std::vector<std::size_t> near;
-    if (!grid_) {
-        for (std::size_t i = 0; i < solids_.size(); ++i) near.push_back(i);
-        return near;
-    }
+void StaticField::eachInGrid(glm::dvec3 centre, double reach, const std::function<void(std::size_t)>& visit) const {
+    std::size_t last = solids_.size();
     for (const std::uint32_t leaf : grid_->leavesNear(centre, reach))
-        if (near.empty() || near.back() != solid_of_[leaf]) near.push_back(solid_of_[leaf]);
-    return near;
+        if (solid_of_[leaf] != last) visit(last = solid_of_[leaf]);
 }
 
 double StaticField::touches(glm::dvec3 centre, double radius, double margin, std::vector<Touch>& out, double* out_room) const {
@@ -43,10 +37,10 @@ double StaticField::touches(glm::dvec3 centre, double radius, double margin, std
     // What the grid does not name has no surface within reach.
     std::uint64_t evaluations = 0;
     double free = grid_ ? std::max(grid_->distance(centre) - radius, margin) : INFINITY, room = free;
-    for (const std::size_t i : solidsNear(centre, radius + margin)) {
+    eachNear(centre, radius + margin, [&](std::size_t i) {
         const FreeGap gap = addTouches(solids_[i], {centre, radius}, margin, out, evaluations);
         free = std::min(free, gap.free), room = std::min(room, gap.room);
-    }
+    });
     evaluations_.add(evaluations);
     if (out_room) *out_room = room;
     keepUnhidden(out, radius);
@@ -55,11 +49,11 @@ double StaticField::touches(glm::dvec3 centre, double radius, double margin, std
 
 double StaticField::room(glm::dvec3 centre, double radius) const {
     double room = grid_ ? grid_->distance(centre) - radius : INFINITY;
-    for (const std::size_t i : solidsNear(centre, radius)) {
+    eachNear(centre, radius, [&](std::size_t i) {
         const double outside = distanceTo(solids_[i].box, centre) - radius;
         if (outside > 0) room = std::min(room, outside);
         else evaluations_.add(1), room = std::min(room, solids_[i].at(centre) - radius);
-    }
+    });
     return room;
 }
 

@@ -35,8 +35,11 @@ public:
 
     /// What the distances prove to be free around a ball, m from its surface on.
     double room(glm::dvec3 centre, double radius) const;
-    /// The numbers of the solids that may have a surface within reach of the centre, in order.
-    std::vector<std::size_t> solidsNear(glm::dvec3 centre, double reach) const;
+    /// visit(number), of the solids that may have a surface within reach of the centre, in order.
+    template <class Visit> void eachNear(glm::dvec3 centre, double reach, Visit visit) const {
+        if (grid_) return eachInGrid(centre, reach, visit);
+        for (std::size_t i = 0; i < solids_.size(); ++i) visit(i);
+    }
     const Solid& solid(std::size_t number) const { return solids_[number]; }
 
     void countEvaluations(std::uint64_t more) const { evaluations_.add(more); }
@@ -44,6 +47,8 @@ public:
     bool empty() const { return solids_.empty(); }
 
 private:
+    void eachInGrid(glm::dvec3 centre, double reach, const std::function<void(std::size_t)>& visit) const;
+
     std::vector<Solid> solids_;
     std::shared_ptr<const Grid> grid_;       // of them all together, where they are many
     std::vector<std::size_t> solid_of_;      // by a leaf's number in that grid

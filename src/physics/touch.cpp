@@ -145,7 +145,8 @@ struct Search {
 FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vector<Touch>& io_touches, std::uint64_t& io_evaluations) {
     const double outside = distanceTo(solid.box, ball.centre) - ball.radius;
     if (outside > margin) return {outside, outside};
-    std::vector<Touch> found;
+    static thread_local std::vector<Touch> found;  // its memory is used again
+    found.clear();
     const Search search{solid, ball.centre, ball.radius, margin, found, io_evaluations};
     const Leaf* lone = solid.lone();
     const Slope of_lone = lone ? slope(*lone, ball.centre) : Slope{};
@@ -172,6 +173,7 @@ FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vec
 }
 
 void keepUnhidden(std::vector<Touch>& io_touches, double radius) {
+    if (io_touches.size() < 2) return;
     std::stable_sort(io_touches.begin(), io_touches.end(), [](const Touch& a, const Touch& b) { return a.gap < b.gap; });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < io_touches.size(); ++i) {

@@ -13,6 +13,8 @@ std::span<Contact> PhysicsWorld::touching(double h) {
     scratch_.found.clear();
     memory_.begin();
     const FlightRules rules = rulesFor(h);
+    scratch_.travel.clear(), scratch_.ids.clear();
+    for (const Body& b : bodies_) scratch_.travel.push_back(b.awake ? travelOf(b, rules) : 0), scratch_.ids.push_back(b.object.value);
     if (has(Stage::static_contacts)) findAll(bodies_.size(), [&](std::size_t i, Found& io_found) { touchStatics(i, rules, io_found); });
     if (has(Stage::broad_phase)) touchBodies(rules);
     return scratch_.found;
@@ -39,7 +41,7 @@ template <class Find> void PhysicsWorld::findAll(std::size_t count, Find find) {
 void PhysicsWorld::touchStatics(std::size_t i, const FlightRules& rules, Found& io_found) {
     const Body& b = bodies_[i];
     if (!b.awake) return io_found.memory.keep(b.object.value, 0);
-    const double travel = travelOf(b, rules);
+    const double travel = scratch_.travel[i];
     const bool flown = metInFlight(b, rules, travel);
     const double ahead = restDepth(b.inner) + (flown ? 0 : travel);
     const double margin = b.isBall() ? std::min(ahead, kNear * b.radius) : ahead;
@@ -65,7 +67,7 @@ void PhysicsWorld::coverPairs(double h, std::span<const Motion> accelerations) {
         return reachOf(i, pairs_.drift(), accelerations.empty() ? 0 : glm::length(accelerations[i].velocity), h);
     };
     if (pairs_.holds(bodies_.size(), needs)) return;
-    constexpr double kMore = 0.05, kAhead = 4;  // of the radius; steps
+    constexpr double kMore = 0.05, kAhead = 8;  // of the radius; steps
     glm::dvec3 drift{0};
     for (const Body& b : bodies_) drift += b.velocity / static_cast<double>(bodies_.size());
     std::vector<Reach> reach;
@@ -83,26 +85,34 @@ void PhysicsWorld::touchBodies(const FlightRules& rules) {
     if (!has(Stage::body_contacts)) return;
     std::vector<Reach>& reach = scratch_.reach;
     reach.clear();
-    for (const Body& b : bodies_) reach.push_back({b.position, b.radius + restDepth(b.inner) + (b.awake ? travelOf(b, rules) : 0)});
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body& b = bodies_[i];
+        reach.push_back({b.position, b.radius + restDepth(b.inner) + scratch_.travel[i]});
+    }
     std::vector<std::pair<int, int>>& near = scratch_.near;
-    near.clear();
+    near.resize(pairs_.pairs().size());
+    std::size_t count = 0;
     for (const auto& [i, j] : pairs_.pairs()) {
         const Reach &a = reach[static_cast<std::size_t>(i)], &b = reach[static_cast<std::size_t>(j)];
         const glm::dvec3 apart = a.centre - b.centre;
         const double most = a.reach + b.reach;
-        if (glm::dot(apart, apart) <= most * most) near.emplace_back(i, j);
+        near[count] = {i, j}, count += glm::dot(apart, apart) <= most * most;  // no branch, which would be guessed wrong
     }
+    near.resize(count);
     findAll(near.size(), [&](std::size_t k, Found& io_found) { touchPair(near[k].first, near[k].second, rules, io_found); });
 }
 
 void PhysicsWorld::touchPair(int i, int j, const FlightRules& rules, Found& io_found) {
     const Body &a = bodies_[static_cast<std::size_t>(i)], &b = bodies_[static_cast<std::size_t>(j)];
-    const double travel = travelBetween(a, b, rules);
-    const bool flown = metInFlight(a, b, rules, travel);
-    const double margin = restDepth(std::min(a.inner, b.inner)) + (flown ? 0 : travel);
+    const bool balls = allBalls() || (a.isBall() && b.isBall());
+    const Pairing pair = owners_ == 0 ? pairing(world_) : pairing(world_, a, b);
+    const double travel = travelBetween(a, b, rules, balls), inner = std::min(a.inner, b.inner);
+    const bool flown = metInFlight(balls, inner, pair, rules, travel);
+    const double margin = restDepth(inner) + (flown ? 0 : travel);
     const Collider collider(world_, field_, io_found.counts, &io_found.memory);
     const std::size_t before = io_found.contacts.size();
-    collider.between(i, a, a.shapePose(), j, b, b.shapePose(), margin, io_found.contacts);
+    if (balls) collider.betweenBalls(i, a, j, b, pair, margin, io_found.contacts);
+    else collider.between(i, a, a.shapePose(), j, b, b.shapePose(), margin, io_found.contacts);
     for (std::size_t n = before; n < io_found.contacts.size(); ++n) io_found.contacts[n].flown = flown;
 }
 

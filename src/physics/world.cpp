@@ -55,16 +55,14 @@ void PhysicsWorld::part(double h) {
     }
     if (!grabs_.empty()) pullGrabbed(h);
     tame();
-    const std::vector<Place> before = places();
     const std::span<Contact> contacts = touching(h);
     const Islands islands(bodies_.size(), contacts);
     if (has(Stage::sleeping)) wakeAndSleep(islands);
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
     if (has(Stage::flight)) fly(accelerations, h);
-    freezeBroken(before);
     pairs_.pass(h);
     if (has(Stage::sleeping)) countStill(contacts, h);
-    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > world_.bounds * world_.bounds; });
+    leaveOut();
 }
 
 /// What lasts of the contacts keeps the bodies up: their accelerations through the part. Crowds are settled, the others carried.
@@ -79,7 +77,7 @@ std::vector<Motion> PhysicsWorld::rest(std::span<Contact> contacts, const Island
         bool balls = true, pairs = false;  // what resists rolling is no crowd
         for (; end < order.size() && islands.of(contacts[order[end]]) == island; ++end) {
             Contact& c = contacts[order[end]];
-            balls = balls && betweenBalls(bodies_, c) && c.pairing.rolling == 0 && c.pairing.spinning == 0, pairs = pairs || c.b != kStatic;
+            balls = balls && (allBalls() || betweenBalls(bodies_, c)) && c.pairing.rolling == 0 && c.pairing.spinning == 0, pairs = pairs || c.b != kStatic;
             c.island = island;
         }
         if (!bodies_[static_cast<std::size_t>(island)].awake) continue;
@@ -111,42 +109,58 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 }
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
-    const bool meets = has(Stage::continuous) && anyMetInFlight(bodies_, rulesFor(h)), pairs = meets && has(Stage::body_contacts) && has(Stage::broad_phase);
+    if (!has(Stage::continuous) || !anyMetInFlight(bodies_, rulesFor(h))) {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) advance(bodies_[i], accelerations[i], h, has(Stage::spin), counts_);
+        return;
+    }
+    const bool pairs = has(Stage::body_contacts) && has(Stage::broad_phase);
     if (pairs) coverPairs(h, accelerations);
     Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, pairs ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
-    flight.run(meets);
+    flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += static_cast<std::uint64_t>(flight.held);
 }
 
 /// Takes out bodies that are nowhere, freezes those whose motion is no number, and slows down those beyond the top speed, before any
-/// meets another.
+/// meets another; and remembers where they are.
 void PhysicsWorld::tame() {
-    const auto nowhere = [](const Body& b) { return !finite(b.position) || !finite(b.orientation) || glm::dot(b.position, b.position) > 1e20; };
-    for (const Body& b : bodies_)
-        if (nowhere(b)) note(fmt::format("{}: removed at {} s, its place is no number", b.name, time_s()));
-    removeWhere(nowhere);
-    freezeBroken({});  // all are somewhere
-    for (Body& b : bodies_) {
-        if (shorten(b.velocity, kTopSpeed)) note(fmt::format("{}: slowed down to {} m/s", b.name, kTopSpeed));
-        if (has(Stage::spin) && shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
+    static constexpr auto kNowhere = [](const Body& b) { return !finite(b.position) || !finite(b.orientation) || glm::dot(b.position, b.position) > 1e20; };
+    constexpr auto kOdd = [](const Body& b) {
+        const double v = glm::dot(b.velocity, b.velocity), w = glm::dot(b.spin, b.spin);
+        return !(v < 0.5 * kTopSpeed * kTopSpeed && w < 0.5 * kTopSpin * kTopSpin) || kNowhere(b);
+    };
+    if (std::ranges::any_of(bodies_, kOdd)) {
+        for (const Body& b : bodies_)
+            if (kNowhere(b)) note(fmt::format("{}: removed at {} s, its place is no number", b.name, time_s()));
+        removeWhere(kNowhere);
+        freezeBroken();  // all are somewhere
+        for (Body& b : bodies_) {
+            if (shorten(b.velocity, kTopSpeed)) note(fmt::format("{}: slowed down to {} m/s", b.name, kTopSpeed));
+            if (has(Stage::spin) && shorten(b.spin, kTopSpin)) note(fmt::format("{}: slowed down to {} rad/s", b.name, kTopSpin));
+        }
     }
+    scratch_.before.clear();
+    for (const Body& b : bodies_) scratch_.before.push_back({b.position, b.orientation});
 }
 
-std::vector<PhysicsWorld::Place> PhysicsWorld::places() const {
-    std::vector<Place> all;
-    all.reserve(bodies_.size());
-    for (const Body& b : bodies_) all.push_back({b.position, b.orientation});
-    return all;
+/// After a part: freezes what is no number any more, and takes out what is out of bounds.
+void PhysicsWorld::leaveOut() {
+    const double bounds = world_.bounds * world_.bounds;
+    const auto inside = [&](const Body& b) {
+        return glm::dot(b.position, b.position) <= bounds && std::isfinite(glm::dot(b.velocity, b.velocity) + glm::dot(b.spin, b.spin)) && finite(b.orientation);
+    };
+    if (std::ranges::all_of(bodies_, inside)) return;
+    freezeBroken();
+    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > bounds; });
 }
 
 /// Puts bodies whose state is no number back to where they last were, and aside.
-void PhysicsWorld::freezeBroken(std::span<const Place> last) {
+void PhysicsWorld::freezeBroken() {
     const auto broken = [](const Body& b) { return !finite(b.position) || !finite(b.orientation) || !finite(b.velocity) || !finite(b.spin); };
     if (std::ranges::none_of(bodies_, broken)) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (Body& b = bodies_[i]; !finite(b.position) || !finite(b.orientation))
-            b.position = last[i].position, b.orientation = last[i].orientation, b.velocity.x = NAN;
+            b.position = scratch_.before[i].position, b.orientation = scratch_.before[i].orientation, b.velocity.x = NAN;
     takeOut(broken, [&](Body& b) {
         note(fmt::format("{}: frozen at {} s where it last was, its state is no number", b.name, time_s()));
         b.velocity = b.spin = {}, b.awake = false;

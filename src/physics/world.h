@@ -109,14 +109,23 @@ private:
         double twist = 0;
     };
 
+    struct Place {
+        glm::dvec3 position;
+        glm::dquat orientation;
+    };
     /// Memory of a part that the next uses again. A copy of a world has its own.
     struct Scratch {
+        std::vector<Place> before;                             // of every body, where it was when the part began
         std::vector<Contact> found, others;
         std::vector<std::uint32_t> crowds;
         Crowd crowd;
-        std::vector<LaneMotion> motion;                        // of every body, and of what never moves
+        std::vector<double> apart;                             // of every contact: how far it is to part, m
+        Crowd::Motions motions;
         std::vector<std::uint64_t> used;                       // of every body; 0 between uses
-        std::vector<int> balls;                                // of an island
+        std::vector<int> members;                              // of an island
+        std::vector<Motion> motion;                            // of every body, that of the members
+        std::vector<std::uint32_t> ids;                        // of every body: its object's
+        std::vector<double> travel;                            // of every body: how far a point of it may get in the part, m
         std::vector<Reach> reach;
         std::vector<std::pair<int, int>> near;                 // the pairs that may touch
         std::vector<char> taken;                               // of every impulse kept
@@ -156,14 +165,14 @@ private:
     std::vector<Motion> falling() const;
     void fly(std::span<const Motion> accelerations, double h);
     void wakeAndSleep(const Islands& islands);
-    double depthOf(const Contact& c) const;
     void pushApart(std::span<Contact> io_contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
     std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
     void settleCrowds(std::span<Contact> contacts, std::span<const std::uint32_t> numbers, double h, std::span<Motion> io_accelerations);
-    void pushCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, double h);
+    double aimCrowd(Contact& io_c, const FlightRules& rules);
     void settleCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, const FlightRules& rules, std::span<Motion> io_accelerations);
-    bool aimApart(Contact& io_c) const;
+    std::span<const int> membersOf(std::span<const Contact> contacts);
+    double apartOf(const Contact& c) const;
     static void move(Body& io_body, const Motion& by, double h);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
@@ -181,12 +190,8 @@ private:
     void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
     void pullGrabbed(double h);
     void tame();
-    struct Place {
-        glm::dvec3 position;
-        glm::dquat orientation;
-    };
-    std::vector<Place> places() const;
-    void freezeBroken(std::span<const Place> last);
+    void leaveOut();
+    void freezeBroken();
     void takeOut(const std::function<bool(const Body&)>& wanted, const std::function<void(Body&)>& taken);
     void removeWhere(const std::function<bool(const Body&)>& gone);
     void note(std::string text);
@@ -211,7 +216,8 @@ private:
     StepCounts counts_;
     std::uint64_t steps_ = 0, impacts_ = 0, held_ = 0, before_ = 0;
     unsigned threads_ = std::min(coresOf(), 4u);
-    int removed_ = 0, contacts_ = 0, shapes_ = 0;              // shapes: bodies that are no balls
+    int removed_ = 0, contacts_ = 0;
+    int shapes_ = 0, owners_ = 0;                              // bodies that are no balls; whose surface is of its own
 };
 
 }  // namespace mb

@@ -16,8 +16,8 @@ TEST_CASE("case 60: of a heavy ball's fall onto a light one the rounds leave les
         ball(s, {0, 0.1, 0}, 0.1);
         ball(s, {0, 0.3, 0}, 0.1, {}, row.ratio);
         const PhysicsWorld w(s);
-        std::vector<Contact> contacts{ballContact(0, w.bodies()[0], {0, 1, 0}, 0, {}),
-                                      ballContact(1, w.bodies()[1], 0, w.bodies()[0], {})};
+        std::vector<Contact> contacts;
+        addBallContact(0, w.bodies()[0], {0, 1, 0}, 0, {}, contacts), addBallContact(1, w.bodies()[1], 0, w.bodies()[0], {}, contacts);
         std::vector<Motion> motion(2);
         motion[0].velocity = motion[1].velocity = {0, -1, 0};
         StepCounts counts;

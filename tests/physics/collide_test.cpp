@@ -38,10 +38,10 @@ TEST_CASE("which restitution and friction two bodies have") {
     Body a, b;
     CHECK(pairing(world, a, b).restitution == 0.6);
     CHECK(pairing(world, a, b).friction == 0.4);
-    a.restitution = 0.1, a.friction = 0.9;
+    a.own = std::make_shared<const OwnSurface>(OwnSurface{.restitution = 0.1, .friction = 0.9});
     CHECK(pairing(world, a, b).restitution == 0.1);
     CHECK(pairing(world, b, a).friction == 0.9);
-    b.restitution = 0.3, b.friction = 0.4;
+    b.own = std::make_shared<const OwnSurface>(OwnSurface{.restitution = 0.3, .friction = 0.4});
     CHECK(pairing(world, a, b).restitution == 0.3);
     CHECK(pairing(world, a, b).friction == doctest::Approx(0.6));
     CHECK(pairing(world, a).friction == 0.9);

@@ -108,12 +108,12 @@ TEST_CASE("of two bodies that say a lever the geometric mean counts, of one its 
     Body a, b;
     CHECK(pairing(world, a).rolling == 0.5);
     CHECK(pairing(world, a, b).spinning == 0.25);
-    a.rolling = 0.04;
+    a.own = std::make_shared<const OwnSurface>(OwnSurface{.rolling = 0.04});
     CHECK(pairing(world, a, b).rolling == 0.04);
     CHECK(pairing(world, b, a).rolling == 0.04);
-    b.rolling = 0.09;
+    b.own = std::make_shared<const OwnSurface>(OwnSurface{.rolling = 0.09});
     CHECK(pairing(world, a, b).rolling == doctest::Approx(0.06));
-    b.rolling = 0;
+    b.own = std::make_shared<const OwnSurface>(OwnSurface{.rolling = 0});
     CHECK(pairing(world, a, b).rolling == 0);
     CHECK(pairing(world, a, b).friction == world.friction);
 }

@@ -101,6 +101,7 @@ void ofSpin(const Effect&, const Scene& scene, const Tree&, Calls& out) {
 }
 /// What touches nothing falls for ever; without gravity it may rest in free space.
 void ofRest(const Effect&, const Scene& scene, const Tree&, Calls& out) {
+    if (!(scene.physics.sleep_speed > 0)) return;
     const Cast cast = castOf(scene);
     if (cast.bodies > 0 && scene.world.gravity == 0) out.add({Record::world, 0, "gravity:0"});
     if (cast.canTouch()) addBodies(scene, out);
