@@ -24,6 +24,7 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
             return others.empty() ? Manifold{{}, within} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
         };
         addPoints(i, body, pose, kStatic, nullptr, {}, margin, find, io_contacts);
+        if (io_contacts.size() == before) addWayOut(i, body, pose, io_contacts);
     }
     counts_.static_contacts += io_contacts.size() - before;
 }
@@ -78,9 +79,26 @@ void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const 
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
     if (!(deep > 0)) return;
     Contact c;
-    c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.pairing = {0, 0};
+    c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.way_out = true;
     c.arm_b = pose_a.position - pose_b.position;
     io_contacts.push_back(c);
+}
+
+/// A shape whose middle is in what does not move, where no surface faces its own, is parted along the field's slope there.
+void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const {
+    Slope deepest;  // on the surface: what is outside gets contacts, or touches nothing
+    bool any = false;
+    field_.eachNear(pose.position, 0, [&](std::size_t s) {
+        const Solid& solid = field_.solid(s);
+        if (distanceTo(solid.box, pose.position) > 0) return;
+        field_.countEvaluations(1);
+        if (const Slope slope = solid.slopeAt(pose.position); slope.distance < deepest.distance) deepest = slope, any = true;
+    });
+    if (!any) return;
+    const double steep = glm::length(deepest.gradient);
+    Contact& c = io_contacts.emplace_back();
+    c.a = i, c.normal = steep > 1e-6 ? deepest.gradient / steep : glm::dvec3{0, 1, 0}, c.gap = deepest.distance - body.inner;
+    c.depth = restDepth(body.inner), c.way_out = true;
 }
 
 template <class Find>

@@ -25,6 +25,7 @@ private:
     void ballWithShape(int i, const Body& ball, const Pose& at, int j, const Body& shape, const Pose& pose, double margin,
                        std::vector<Contact>& io_contacts) const;
     void addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const;
+    void addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const;
     template <class Find>
     void addPoints(int i, const Body& a, const Pose& pose_a, int j, const Body* b, const Pose& pose_b, double margin, Find find,
                    std::vector<Contact>& io_contacts) const;

@@ -13,6 +13,7 @@ struct Contact {
     int a = 0, b = kStatic;        // numbers of bodies; b may be static
     int island = 0;                // which it belongs to; those of one stand together
     bool flown = false;            // it is met in flight (flight.h), if it is fast
+    bool way_out = false;          // of two too deep in one another for their surfaces to tell how to part
     glm::dvec3 normal{0};          // unit, from b towards a
     double gap = 0;                // m
     double depth = 0;              // m: how deep the two may rest in one another

@@ -70,7 +70,8 @@ template <bool drags, bool parts>
 MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     using Batch = Crowd::Batch;
     LaneMotion* const motion = io_motions.now.data();
-    visit<drags, false>(io_batches, motion, [](Batch&, Row& row, LaneEnds& a, LaneEnds& b) MB_INLINE_CALL { applyFirst<drags>(row, a, b); });
+    const auto apply = [](Batch&, Row& row, LaneEnds& a, LaneEnds& b) MB_INLINE_CALL { applyFirst<drags>(row, a, b); };
+    visit<drags, false>(io_batches, motion, apply);
     for (const int i : balls) io_motions.last[i] = io_motions.now[i], io_motions.way[i] = {};
     Pace pace(rounds), apart_pace(rounds);
     for (;;) {
@@ -95,7 +96,8 @@ MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, std::span<const in
 }
 
 using Rounds = int (*)(std::vector<Crowd::Batch>&, std::span<const int>, Crowd::Motions&, int);
-template <bool drags, bool parts> int plainRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+template <bool drags, bool parts>
+int plainRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     return roundsOf<drags, parts>(io_batches, balls, io_motions, rounds);
 }
 #if defined(__x86_64__)
@@ -143,13 +145,12 @@ void Crowd::set(const Motions& motions, std::span<const Contact> contacts, std::
         batches_[lane[colour] / kLanes].contact[lane[colour] % kLanes] = numbers[i];
         lane[colour] += colour + 1 < kColours ? 1 : kLanes;
     }
-    const int bodies = static_cast<int>(motions.way.size());
-    int still = 0;
-    for (Batch& batch : batches_) fill(batch, motions, contacts, apart, bodies + still++ % kStill);
+    for (Batch& batch : batches_) fill(batch, motions, contacts, apart);
 }
 
 /// Sets what a batch knows of its contacts and their bodies. Where there is no contact, nothing is moved by anything.
-void Crowd::fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart, int still) {
+void Crowd::fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart) {
+    const int still = static_cast<int>(motions.way.size());
     Batch& b = io_batch;
     b.step = b.way = b.apart = b.apart_step = b.apart_way = Lanes{}, b.drag_step = b.drag_way = LaneVec{};
     for (int l = 0; l < kLanes; ++l) {
@@ -172,7 +173,8 @@ void Crowd::fill(Batch& io_batch, const Motions& motions, std::span<const Contac
 }
 
 int Crowd::solve(std::span<const int> balls, Motions& io_motions, int rounds, bool drags, bool parts) {
-    static const std::array<Rounds, 4> kRounds{fastestRounds<false, false>(), fastestRounds<false, true>(), fastestRounds<true, false>(), fastestRounds<true, true>()};
+    static const std::array<Rounds, 4> kRounds{fastestRounds<false, false>(), fastestRounds<false, true>(), fastestRounds<true, false>(),
+                                               fastestRounds<true, true>()};
     return kRounds[(drags ? 2 : 0) + (parts ? 1 : 0)](batches_, balls, io_motions, rounds);
 }
 

@@ -2,8 +2,6 @@
 // Balls that lie on one another: a crowd. Its contacts are worked on four at a time.
 #include "physics/rows.h"
 
-#include <algorithm>
-
 namespace mb {
 
 /// What impulses change of a ball, and how far it is pushed out of others, m. With each vector goes a number, of what never moves 0:
@@ -30,18 +28,17 @@ public:
         LaneVec normal, drag, drag_step, drag_way;
         Lanes normal_mass, tangent_mass, friction, target, push, step, way;
         Lanes apart_target, apart, apart_step, apart_way;  // of the displacements, m
-        std::array<int, kLanes> a{}, b{};                  // bodies' numbers; of what never moves, and where there is no contact, more than all
+        std::array<int, kLanes> a{}, b{};                  // bodies' numbers; of what never moves, and where there is no contact, one more than all
         std::array<std::uint32_t, kLanes> contact{};       // its number; kNone: there is no contact
     };
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-    static constexpr int kStill = 16;                      // what never moves has so many numbers, for a batch not to wait for the one before
 
     /// Of each body, by its number, and behind them of what never moves. `now` is given, of the crowd's balls, and changed.
     struct Motions {
         std::vector<LaneMotion> now, way, last;            // way and last: how the rounds go
         void resize(std::size_t bodies) {
-            now.resize(bodies + kStill), way.resize(bodies), last.resize(bodies);
-            std::fill(now.end() - kStill, now.end(), LaneMotion{});
+            now.resize(bodies + 1), way.resize(bodies), last.resize(bodies);
+            now.back() = {};
         }
     };
     /// `numbers`: of the island's contacts among all; `apart`: how far each of all is to part, in metres. `used` is of as many elements as
@@ -55,7 +52,7 @@ public:
     void finish(std::span<Contact> contacts, std::vector<std::uint64_t>& out_marks) const;
 
 private:
-    static void fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart, int still);
+    static void fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart);
 
     std::vector<Batch> batches_;
     std::vector<std::uint8_t> colours_;                    // of the contacts

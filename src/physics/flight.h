@@ -66,7 +66,7 @@ public:
     void run();
 
     int impacts = 0;
-    int held = 0;             // bodies that met more than fits into one part: they wait for the next where they are
+    std::vector<int> held;    // bodies that met more than fits into one part: they wait for the next where they are
 
 private:
     struct Path {

@@ -125,7 +125,7 @@ void Flight::support(const std::vector<Contact>& contacts) {
 
 /// Leaves a ball where it is for the rest of the part, with its velocity: neither energy nor a wall is lost by that.
 void Flight::hold(std::size_t i) {
-    if (!paths_[i].held) ++held;
+    if (!paths_[i].held) held.push_back(static_cast<int>(i));
     paths_[i].held = true;
 }
 

@@ -221,7 +221,8 @@ void PhysicsWorld::keep(std::span<const Contact> carried, std::span<const Contac
     kept_.resize(kept_begin_.back());
     std::vector<std::uint32_t> next = kept_begin_;
     each([&](const Contact& c) {
-        kept_[next[at(c.a)]++] = {scratch_.ids[at(c.a)], c.b == kStatic ? 0 : scratch_.ids[at(c.b)], c.feature, c.normal, c.arm_a, c.push, c.drag, c.twist};
+        const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[at(c.b)];
+        kept_[next[at(c.a)]++] = {scratch_.ids[at(c.a)], b, c.feature, c.normal, c.arm_a, c.push, c.drag, c.twist};
     });
 }
 

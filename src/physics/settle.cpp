@@ -45,12 +45,16 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
             if (i != kStatic && s.used[at(i)] == 0) s.used[at(i)] = 1, s.members.push_back(i);
     }
     const glm::dvec3 fall = world_.fall() * h;
-    const auto unmark = [&] { for (const int i : s.members) s.used[at(i)] = 0; };
+    const auto unmark = [&] {
+        for (const int i : s.members) s.used[at(i)] = 0;
+    };
     for (const int i : s.members) s.motions.now[at(i)].set(bodies_[at(i)], {bodies_[at(i)].velocity + fall, bodies_[at(i)].spin}, has(Stage::spin));
-    unmark(), s.crowd.set(s.motions, contacts, island, s.apart, s.used), unmark();
-    const auto rounds = static_cast<std::uint64_t>(s.crowd.solve(s.members, s.motions, roundsFor(island.size(), knobs_.iterations), has(Stage::friction), parts));
-    counts_.rounds += rounds;
-    if (has(Stage::friction)) counts_.drags += rough * rounds;
+    unmark();
+    s.crowd.set(s.motions, contacts, island, s.apart, s.used);
+    unmark();
+    const int rounds = s.crowd.solve(s.members, s.motions, roundsFor(island.size(), knobs_.iterations), has(Stage::friction), parts);
+    counts_.rounds += static_cast<std::uint64_t>(rounds);
+    if (has(Stage::friction)) counts_.drags += rough * static_cast<std::uint64_t>(rounds);
     s.crowd.finish(contacts, s.used);
     for (const int i : s.members) {
         Body& b = bodies_[at(i)];

@@ -8,7 +8,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSnapshotShare = 0.02;  // of the time the steps take: what copying worlds may take at most
 constexpr double kSlow_s = 0.1;          // where fewer steps take so long, they need not be made again to go back
 constexpr std::size_t kTouches = 2;      // that a body keeps in mind, on average
 
@@ -113,7 +112,7 @@ void Timeline::keepSnapshot() {
     if (target_ && *target_ - step() == options_.spacing) near_ = snapshot();
     const std::uint64_t since = step() - std::prev(snapshots_.upper_bound(step()))->first;
     const bool slow = stepping_s_ > kSlow_s && spacing_ == options_.spacing;  // as long as there is memory for more
-    if (spacing_ == 0 || since == 0 || (since < spacing_ && !slow) || stepping_s_ * kSnapshotShare < copying_s_) return;
+    if (spacing_ == 0 || since == 0 || (since < spacing_ && !slow) || stepping_s_ * options_.copying < copying_s_) return;
     const auto start = Clock::now();
     snapshot_bytes_ += snapshots_.emplace(step(), snapshot()).first->second.bytes;
     copying_s_ = secondsSince(start), stepping_s_ = 0;

@@ -16,6 +16,7 @@ struct TimelineOptions {
     /// recording takes half of it, the oldest steps lose the hashes of their bodies: their divergences then have no name.
     std::size_t most_bytes = std::size_t{256} << 20;
     std::uint64_t spacing = 16;  // steps from one snapshot to the next, at first; 0: there are none but the start
+    double copying = 0.02;       // of the time the steps take: what copying worlds may take at most
 };
 
 class Timeline {

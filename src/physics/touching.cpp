@@ -3,6 +3,7 @@
 #include "core/measure/parallel.h"
 #include "physics/world.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 namespace mb {
@@ -17,7 +18,16 @@ std::span<Contact> PhysicsWorld::touching(double h) {
     for (const Body& b : bodies_) scratch_.travel.push_back(b.awake ? travelOf(b, rules) : 0), scratch_.ids.push_back(b.object.value);
     if (has(Stage::static_contacts)) findAll(bodies_.size(), [&](std::size_t i, Found& io_found) { touchStatics(i, rules, io_found); });
     if (has(Stage::broad_phase)) touchBodies(rules);
+    if (!allBalls()) noteWaysOut();
     return scratch_.found;
+}
+
+void PhysicsWorld::noteWaysOut() {
+    const auto name = [&](int i) { return bodies_[static_cast<std::size_t>(i)].name; };
+    for (const Contact& c : scratch_.found)
+        if (c.way_out)
+            note(fmt::format("{}: so deep in {} that no surface of theirs faces the other's; moved out a straight way", name(c.a),
+                             c.b == kStatic ? "what does not move" : name(c.b)));
 }
 
 /// Appends what is found of the first `count` things, in their order, whichever thread finds it: find(i, io_found) adds what there is

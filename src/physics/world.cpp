@@ -118,7 +118,9 @@ void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     Flight flight(bodies_, near_, field_, rulesFor(h), accelerations, pairs ? pairs_.pairs() : std::span<const std::pair<int, int>>{}, counts_);
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
-    held_ += static_cast<std::uint64_t>(flight.held);
+    held_ += flight.held.size();
+    for (const int i : flight.held)
+        note(fmt::format("{}: met more within a step than is followed, and waited for the next", bodies_[static_cast<std::size_t>(i)].name));
 }
 
 /// Takes out bodies that are nowhere, freezes those whose motion is no number, and slows down those beyond the top speed, before any
@@ -147,7 +149,8 @@ void PhysicsWorld::tame() {
 void PhysicsWorld::leaveOut() {
     const double bounds = world_.bounds * world_.bounds;
     const auto inside = [&](const Body& b) {
-        return glm::dot(b.position, b.position) <= bounds && std::isfinite(glm::dot(b.velocity, b.velocity) + glm::dot(b.spin, b.spin)) && finite(b.orientation);
+        const double squares = glm::dot(b.velocity, b.velocity) + glm::dot(b.spin, b.spin);
+        return glm::dot(b.position, b.position) <= bounds && std::isfinite(squares) && finite(b.orientation);
     };
     if (std::ranges::all_of(bodies_, inside)) return;
     freezeBroken();

@@ -67,7 +67,8 @@ public:
     std::uint64_t impacts() const { return impacts_; }
     std::uint64_t held() const { return held_; }               // waits for the next part, see flight.h
     std::uint64_t evaluations() const { return field_.evaluations() + before_; }  // of the static field
-    /// What the user should know: shapes that take no part, bodies slowed down, frozen or removed; each once.
+    /// What the user should know: shapes that take no part, bodies slowed down, frozen or removed, contacts that could not be resolved;
+    /// each once.
     std::span<const std::string> notes() const { return notes_; }
 
     Energy energy() const;
@@ -147,6 +148,7 @@ private:
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
     bool allBalls() const { return shapes_ == 0; }
     std::span<Contact> touching(double h);
+    void noteWaysOut();
     struct Found {                                             // of some bodies or pairs, by one thread
         std::vector<Contact> contacts;
         ManifoldMemory::Share memory;

@@ -259,3 +259,28 @@ TEST_CASE("a capsule that spins on its end is slowed by the friction of a small 
         CHECK(std::fabs(20 - b.spin.y - 0.2 * torque * b.inverse_inertia[1][1]) < 1e-3 + 0.02 * (20 - b.spin.y));
     }
 }
+
+TEST_CASE("a shape that begins deep in what does not move, or in another body, comes out of it slowly; where no surface tells the way, it says so") {
+    enum class In { ground, same, body };
+    for (const std::string_view kind : {"box", "capsule", "die"})
+        for (const In in : {In::ground, In::same, In::body}) {
+            Scene s = scene(1.0 / 120, 0, 0.5, in == In::ground ? kG : 0);
+            if (in == In::ground) add(s, "box", {0, -5, 0}, {20, 10, 20, 0});
+            else if (in == In::same) add(s, "box", {0, -0.01, 0}, {0.21, 0.21, 0.21, 0});
+            else bodyOf(s, kind, {0, 0.01, 0}, 0.2);
+            bodyOf(s, kind, in == In::ground ? glm::dvec3{0, -1, 0} : glm::dvec3{0}, 0.2);
+            PhysicsWorld w(s);
+            double fastest = 0;
+            for (int i = 0; i < 4 * 120; ++i) {
+                w.step();
+                for (const Body& b : w.bodies()) fastest = std::max(fastest, glm::length(b.velocity));
+            }
+            CAPTURE(kind);
+            CAPTURE(static_cast<int>(in));
+            CHECK(w.maxPenetration() <= 1e-3);
+            CHECK(glm::length(w.bodies()[0].position) > 0.05);
+            CHECK(fastest <= 1);
+            const bool says = !w.notes().empty() && w.notes()[0].find("so deep in") != std::string_view::npos;
+            CHECK(says == (in != In::ground));
+        }
+}

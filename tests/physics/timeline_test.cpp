@@ -182,7 +182,7 @@ TEST_CASE("the budget holds: snapshots get fewer, then the oldest hashes of bodi
     floor(s);
     for (int i = 0; i < 100; ++i) ball(s, {0.5 * (i % 10), 1 + 0.02 * i, 0.5 * (i / 10)}, 0.2);
     constexpr std::size_t kBudget = 1 << 20;
-    Timeline t(s, {.most_bytes = kBudget, .spacing = 4});
+    Timeline t(s, {.most_bytes = kBudget, .spacing = 4, .copying = 1e9});
     std::size_t most = 0;
     while (t.step() < 2000) t.advance(), most = std::max(most, t.bytes());
     CHECK(most <= kBudget);
