@@ -74,10 +74,18 @@ void Collider::ballWithShape(int i, const Body& ball, const Pose& at, int j, con
     }
 }
 
-/// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres.
+/// Whether a place is in the body, when that is so placed. (A ring's middle is not in the ring.)
+bool Collider::holds(const Body& body, const Pose& pose, glm::dvec3 place) const {
+    field_.countEvaluations(1);
+    return body.solid->at(pose.fromWorld(place)) < 0;
+}
+
+/// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres, of which one is in both.
 void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
     if (!(deep > 0)) return;
+    const auto in_both = [&](glm::dvec3 place) { return holds(a, pose_a, place) && holds(b, pose_b, place); };
+    if (!in_both(pose_a.position) && !in_both(pose_b.position)) return;
     Contact c;
     c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.way_out = true;
     c.arm_b = pose_a.position - pose_b.position;
@@ -94,7 +102,7 @@ void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<
         field_.countEvaluations(1);
         if (const Slope slope = solid.slopeAt(pose.position); slope.distance < deepest.distance) deepest = slope, any = true;
     });
-    if (!any) return;
+    if (!any || !holds(body, pose, pose.position)) return;
     const double steep = glm::length(deepest.gradient);
     Contact& c = io_contacts.emplace_back();
     c.a = i, c.normal = steep > 1e-6 ? deepest.gradient / steep : glm::dvec3{0, 1, 0}, c.gap = deepest.distance - body.inner;

@@ -31,10 +31,7 @@ void PhysicsWorld::throwAbout(std::uint64_t seed, double speed) {
 
 void PhysicsWorld::remove(ObjectId object) {
     std::erase_if(frozen_, [&](const Body& b) { return b.object == object; });
-    const auto found = std::ranges::find(bodies_, object, &Body::object);
-    if (found == bodies_.end()) return;
-    for (Body& b : bodies_)
-        if (glm::length(b.position - found->position) <= (b.radius + found->radius) * 1.01) b.awake = true, b.still = 0;
+    if (std::ranges::find(bodies_, object, &Body::object) == bodies_.end()) return;
     removeWhere([&](const Body& b) { return b.object == object; });
     --removed_;  // it was taken, not lost
 }

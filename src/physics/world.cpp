@@ -31,7 +31,7 @@ template <class Hash> void addState(Hash& io_hash, const Body& b) {
     io_hash.add(b.position), io_hash.add(b.velocity), io_hash.add(b.spin), io_hash.add(b.orientation);
     io_hash.add(b.radius), io_hash.add(b.inverse_mass);
     for (int i = 0; i < 3; ++i) io_hash.add(b.inverse_inertia[i]);
-    io_hash.add(static_cast<std::uint64_t>(b.awake)), io_hash.add(static_cast<std::uint64_t>(b.still));
+    io_hash.add(std::uint64_t{b.awake} | std::uint64_t{b.waited} << 1), io_hash.add(static_cast<std::uint64_t>(b.still));
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     if (!has(Stage::continuous) || !anyMetInFlight(bodies_, rulesFor(h))) {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) advance(bodies_[i], accelerations[i], h, has(Stage::spin), counts_);
+        for (std::size_t i = 0; i < bodies_.size(); ++i) advance(bodies_[i], accelerations[i], h, has(Stage::spin), counts_), bodies_[i].waited = false;
         return;
     }
     const bool pairs = has(Stage::body_contacts) && has(Stage::broad_phase);
@@ -119,6 +119,8 @@ void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += flight.held.size();
+    for (Body& b : bodies_) b.waited = false;
+    for (const int i : flight.held) bodies_[static_cast<std::size_t>(i)].waited = true;
     for (const int i : flight.held)
         note(fmt::format("{}: met more within a step than is followed, and waited for the next", bodies_[static_cast<std::size_t>(i)].name));
 }
@@ -171,8 +173,12 @@ void PhysicsWorld::freezeBroken() {
     });
 }
 
-/// Takes bodies out, with what is kept of them.
+/// Takes bodies out, with what is kept of them, and wakes what is near; of one that is nowhere, all.
 void PhysicsWorld::takeOut(const std::function<bool(const Body&)>& wanted, const std::function<void(Body&)>& taken) {
+    for (const Body& gone : bodies_)  // what may have rested on it
+        if (wanted(gone))
+            for (Body& b : bodies_)
+                if (!(glm::length(b.position - gone.position) > 1.01 * (b.radius + gone.radius))) b.awake = true, b.still = 0;
     std::size_t left = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (wanted(bodies_[i])) {
@@ -198,7 +204,8 @@ void PhysicsWorld::removeWhere(const std::function<bool(const Body&)>& gone) {
 }
 
 void PhysicsWorld::note(std::string text) {
-    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
+    if (notes_.size() > kMostNotes || std::ranges::find(notes_, text) != notes_.end()) return;
+    notes_.push_back(notes_.size() < kMostNotes ? std::move(text) : "and more, which are not named");
 }
 
 int PhysicsWorld::awake() const {

@@ -32,8 +32,8 @@ struct Energy {
 inline constexpr double kGrabRate = 30;        // rad/s: of the spring that holds what is grabbed
 inline constexpr double kGrabPull = 300;       // m/s²: no stronger, times the body's mass
 inline constexpr double kGrabSpeed = 20;       // m/s: the spring wants no faster approach
-
 inline constexpr double kGrabCalm = 4;         // 1/s: at which what is held stops turning
+inline constexpr std::size_t kMostNotes = 100; // beyond which one more says that there are others
 
 /// A body held by hand.
 struct Grab {
@@ -75,7 +75,8 @@ public:
     glm::dvec3 momentum() const;                               // kg·m/s
     glm::dvec3 angularMomentum() const;                        // kg·m²/s, about the origin
     double maxPenetration() const;                             // m, the deepest overlap there is now; 0: none
-    /// FNV-1a over everything the next step depends on, field by field.
+    /// FNV-1a over all that steps change and over the knobs, field by field. What the scene says of the world, of shapes and of surfaces
+    /// is not in it.
     std::uint64_t stateHash() const;
     std::string stateText() const;                             // 16 hex digits of it
     /// Over what stateHash() takes of that body, by a quicker hash: to tell which body differs.

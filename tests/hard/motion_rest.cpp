@@ -184,6 +184,21 @@ TEST_CASE("case 75: after 1e6 steps the clock is right, a settled stack has not 
     MESSAGE("awake for ", steps, " steps the stack moved by ", moved(before, awake.bodies()), " m");
 }
 
+TEST_CASE("case 77: what lies asleep on a body that is frozen wakes and falls") {
+    Scene s = scene(1.0 / 120, 0, 0.5);
+    floor(s);
+    block(s, {0, 0.5, 0}, {1, 1, 1}), block(s, {0, 1.5, 0}, {1, 1, 1}), ball(s, {5, 0.5, 0}, 0.5);
+    PhysicsWorld w(s);
+    run(w, 2);
+    REQUIRE(w.awake() == 0);
+    w.setMotion(0, {NAN, 0, 0}, {});
+    run(w, 2);
+    REQUIRE(w.bodies().size() == 2);
+    CHECK(w.frozen().size() == 1);
+    CHECK(w.bodies()[0].position.y == doctest::Approx(0.5).epsilon(1e-3));
+    CHECK(w.awake() == 0);
+}
+
 TEST_CASE("case 77: sleepers wake when they are hit, lose or are pushed by what they rest on, or gravity changes") {
     for (const std::string_view kind : kKinds) {
         Scene s = scene(1.0 / 120, 0.2, 0.5);

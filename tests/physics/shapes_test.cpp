@@ -284,3 +284,41 @@ TEST_CASE("a shape that begins deep in what does not move, or in another body, c
             CHECK(says == (in != In::ground));
         }
 }
+
+TEST_CASE("what stands in a ring's hole does not touch the ring") {
+    SUBCASE("a ring slides down over a peg") {
+        Scene s = scene(1.0 / 120, 0.3, 0.4);
+        floor(s);
+        add(s, "cylinder", {0, 0.5, 0}, {0.1, 1, 0});
+        add(s, "torus", {0.02, 1.5, 0}, {0.25, 0.07}).density = 500;
+        PhysicsWorld w(s);
+        run(w, 8);
+        CHECK(w.bodies()[0].position.y == doctest::Approx(0.07).epsilon(0.01));
+        CHECK(w.awake() == 0);
+        CHECK(w.notes().empty());
+    }
+    SUBCASE("nor does a body that floats in it") {
+        Scene s = scene(1.0 / 120, 0.3, 0.4, 0);
+        add(s, "torus", {0, 0, 0}, {0.25, 0.07}).density = 500;
+        block(s, {0.02, 0, 0}, {0.2, 0.1, 0.2});
+        PhysicsWorld w(s);
+        run(w, 1);
+        CHECK(w.bodies()[0].position == glm::dvec3{0});
+        CHECK(w.bodies()[1].position == glm::dvec3{0.02, 0, 0});
+        CHECK(w.notes().empty());
+    }
+}
+
+TEST_CASE("a thin shape that meets too much in a step waits for it, and goes on: none hangs in the air") {
+    double highest = 0;
+    for (const double radius : {0.003, 0.02, 0.03}) {
+        Scene s = scene(1.0 / 120, 0.3, 0.4);
+        floor(s);
+        Object& o = add(s, "capsule", {0, 1.2, 0}, {radius, 2});
+        o.rot = {3, 0, 4}, o.density = 700;
+        PhysicsWorld w(s);
+        run(w, 8);
+        highest = std::max(highest, w.bodies()[0].position.y - radius);
+    }
+    CHECK(highest <= 1e-3);
+}
