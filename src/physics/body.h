@@ -27,7 +27,6 @@ struct alignas(64) Body {
     ObjectId object;
     int still = 0;                       // parts of steps it has been still for
     bool awake = true;
-    bool waited = false;                 // it met more in the last part than is followed, and is met by contacts in this one
     glm::dmat3 inverse_inertia{0};       // of the inertia
     glm::dmat3 inertia{0};               // kg·m², about the centre of mass, in the body's frame
     std::string name;

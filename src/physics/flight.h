@@ -45,11 +45,10 @@ inline bool metInFlight(bool balls, double inner, const Pairing& pairing, const 
     return (balls && pairing.restitution != 0) || (rules.stages.has(Stage::continuous) && travel > kNear * inner);
 }
 inline bool metInFlight(const Body& a, const FlightRules& rules, double travel) {
-    return !a.waited && metInFlight(a.isBall(), a.inner, pairing(rules.world, a), rules, travel);
+    return metInFlight(a.isBall(), a.inner, pairing(rules.world, a), rules, travel);
 }
 inline bool metInFlight(const Body& a, const FlightRules& rules) { return metInFlight(a, rules, travelOf(a, rules)); }
 inline bool metInFlight(const Body& a, const Body& b, const FlightRules& rules) {
-    if (a.waited || b.waited) return false;
     return metInFlight(a.isBall() && b.isBall(), std::min(a.inner, b.inner), pairing(rules.world, a, b), rules, travelBetween(a, b, rules));
 }
 /// Moves a body that meets nothing: at that acceleration (m/s², rad/s²) for a time, exactly but for a shape's turning.

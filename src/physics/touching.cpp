@@ -117,7 +117,7 @@ void PhysicsWorld::touchPair(int i, int j, const FlightRules& rules, Found& io_f
     const bool balls = allBalls() || (a.isBall() && b.isBall());
     const Pairing pair = owners_ == 0 ? pairing(world_) : pairing(world_, a, b);
     const double travel = travelBetween(a, b, rules, balls), inner = std::min(a.inner, b.inner);
-    const bool flown = !a.waited && !b.waited && metInFlight(balls, inner, pair, rules, travel);
+    const bool flown = metInFlight(balls, inner, pair, rules, travel);
     const double margin = restDepth(inner) + (flown ? 0 : travel);
     const Collider collider(world_, field_, io_found.counts, &io_found.memory);
     const std::size_t before = io_found.contacts.size();

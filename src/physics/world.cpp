@@ -31,7 +31,7 @@ template <class Hash> void addState(Hash& io_hash, const Body& b) {
     io_hash.add(b.position), io_hash.add(b.velocity), io_hash.add(b.spin), io_hash.add(b.orientation);
     io_hash.add(b.radius), io_hash.add(b.inverse_mass);
     for (int i = 0; i < 3; ++i) io_hash.add(b.inverse_inertia[i]);
-    io_hash.add(std::uint64_t{b.awake} | std::uint64_t{b.waited} << 1), io_hash.add(static_cast<std::uint64_t>(b.still));
+    io_hash.add(std::uint64_t{b.awake}), io_hash.add(static_cast<std::uint64_t>(b.still));
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ void PhysicsWorld::dropImpacts(std::vector<Contact>& io_contacts, double h) cons
 
 void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     if (!has(Stage::continuous) || !anyMetInFlight(bodies_, rulesFor(h))) {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) advance(bodies_[i], accelerations[i], h, has(Stage::spin), counts_), bodies_[i].waited = false;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) advance(bodies_[i], accelerations[i], h, has(Stage::spin), counts_);
         return;
     }
     const bool pairs = has(Stage::body_contacts) && has(Stage::broad_phase);
@@ -119,8 +119,6 @@ void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     flight.run();
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += flight.held.size();
-    for (Body& b : bodies_) b.waited = false;
-    for (const int i : flight.held) bodies_[static_cast<std::size_t>(i)].waited = true;
     for (const int i : flight.held)
         note(fmt::format("{}: met more within a step than is followed, and waited for the next", bodies_[static_cast<std::size_t>(i)].name));
 }
