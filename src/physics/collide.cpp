@@ -80,12 +80,13 @@ bool Collider::holds(const Body& body, const Pose& pose, glm::dvec3 place) const
     return body.solid->at(pose.fromWorld(place)) < 0;
 }
 
-/// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres, of which one is in both.
+/// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres, if one of these or the
+/// middle between them is in both.
 void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
     if (!(deep > 0)) return;
     const auto in_both = [&](glm::dvec3 place) { return holds(a, pose_a, place) && holds(b, pose_b, place); };
-    if (!in_both(pose_a.position) && !in_both(pose_b.position)) return;
+    if (!in_both(0.5 * (pose_a.position + pose_b.position)) && !in_both(pose_a.position) && !in_both(pose_b.position)) return;
     Contact c;
     c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.way_out = true;
     c.arm_b = pose_a.position - pose_b.position;
