@@ -11,12 +11,13 @@ glm::dmat3 Body::worldInverseInertia() const {
 }
 
 namespace {
-const OwnSurface kNothing;
-const OwnSurface& ownOf(const Body& b) { return b.own ? *b.own : kNothing; }
+const OwnSurface& ownOf(const Body& b) {
+    static const OwnSurface nothing;
+    return b.own ? *b.own : nothing;
+}
 }  // namespace
 
 Pairing pairing(const World& world, const Body& body) {
-    if (!body.own) return pairing(world);
     const OwnSurface& a = ownOf(body);
     return {a.restitution.value_or(world.restitution), a.friction.value_or(world.friction), a.rolling.value_or(world.rolling),
             a.spinning.value_or(world.spinning)};

@@ -39,7 +39,8 @@ inline double travelBetween(const Body& a, const Body& b, const FlightRules& rul
     return (glm::length(a.velocity - b.velocity) + turning + std::fabs(rules.world.gravity) * h) * h;
 }
 /// Whether a contact of the two, or of a with what does not move, is met in flight: balls that bounce, and what is fast. (What
-/// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew.)
+/// lies ahead of the others is within the margin of their contacts. A ball that was hit on its way looks ahead anew,
+/// if it still gets far: kStruck.)
 /// `balls`: nothing else has a part in it; `inner`: the lesser; `travel`: of the two against one another, travelOf() or travelBetween().
 inline bool metInFlight(bool balls, double inner, const Pairing& pairing, const FlightRules& rules, double travel) {
     return (balls && pairing.restitution != 0) || (rules.stages.has(Stage::continuous) && travel > kNear * inner);

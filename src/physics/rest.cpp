@@ -54,10 +54,8 @@ std::span<const int> PhysicsWorld::membersOf(std::span<const Contact> contacts) 
     Scratch& s = scratch_;
     s.motion.resize(bodies_.size()), s.used.resize(bodies_.size(), 0);
     s.members.clear();
-    for (const Contact& c : contacts)
-        for (const int i : {c.a, c.b})
-            if (i != kStatic && s.used[at(i)] == 0) s.used[at(i)] = 1, s.members.push_back(i);
-    for (const int i : s.members) s.used[at(i)] = 0;
+    for (const Contact& c : contacts) s.addMembers(c);
+    s.unmark();
     return s.members;
 }
 

@@ -41,17 +41,13 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
     for (const std::uint32_t k : island) {
         Contact& c = contacts[k];
         s.apart[k] = aimCrowd(c, rules), parts = parts || s.apart[k] > 0, rough += c.pairing.friction != 0;
-        for (const int i : {c.a, c.b})
-            if (i != kStatic && s.used[at(i)] == 0) s.used[at(i)] = 1, s.members.push_back(i);
+        s.addMembers(c);
     }
     const glm::dvec3 fall = world_.fall() * h;
-    const auto unmark = [&] {
-        for (const int i : s.members) s.used[at(i)] = 0;
-    };
     for (const int i : s.members) s.motions.now[at(i)].set(bodies_[at(i)], {bodies_[at(i)].velocity + fall, bodies_[at(i)].spin}, has(Stage::spin));
-    unmark();
+    s.unmark();
     s.crowd.set(s.motions, contacts, island, s.apart, s.used);
-    unmark();
+    s.unmark();
     const int rounds = s.crowd.solve(s.members, s.motions, roundsFor(island.size(), knobs_.iterations), has(Stage::friction), parts);
     counts_.rounds += static_cast<std::uint64_t>(rounds);
     if (has(Stage::friction)) counts_.drags += rough * static_cast<std::uint64_t>(rounds);
@@ -65,7 +61,7 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
         if (has(Stage::spin)) b.spin = m.spin;
         io_accelerations[at(i)] = {};
     }
-    unmark();
+    s.unmark();
 }
 
 }  // namespace mb

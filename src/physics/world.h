@@ -133,6 +133,14 @@ private:
         std::vector<char> taken;                               // of every impulse kept
         Scratch() = default;
         Scratch(const Scratch&) {}
+        /// Those of a contact, unless they are members already; they are marked as used until unmark().
+        void addMembers(const Contact& c) {
+            for (const int i : {c.a, c.b})
+                if (i != kStatic && used[static_cast<std::size_t>(i)] == 0) used[static_cast<std::size_t>(i)] = 1, members.push_back(i);
+        }
+        void unmark() {
+            for (const int i : members) used[static_cast<std::size_t>(i)] = 0;
+        }
         Scratch& operator=(const Scratch&) { return *this; }
     };
 
