@@ -99,7 +99,7 @@ real sdCapsule(vec3 p, real radius, real height) {
 vec2 spanCapsule(vec3 o, vec3 d, real radius, real height) { return spanUpright(o, d, radius * wider(), (0.5f * height + radius) * wider()); }
 vec2 innerCapsule(vec3 o, vec3 d, real radius, real height) { return spanUpright(o, d, radius * narrower(), height * (0.5f * narrower())); }
 
-// A frustum between a base of `radius` and a top of `radius2`. The nearest feature is a disc (the caps) or the slanted
+// A frustum between a base of `radius` and a top of `radius2`. From outside the nearest feature is a disc (the caps) or the slanted
 // side, a segment in the half-plane of the radius q.x and the height q.y.
 real sdCone(vec3 p, real radius, real radius2, real height) {
     vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
@@ -113,8 +113,9 @@ real sdCone(vec3 p, real radius, real radius2, real height) {
     vec2 slant = from - side * t;
 
     real nearest = min(square(cap.x) + square(cap.y), square(slant.x) + square(slant.y));
-    real beyond = max(from.x * side.y - from.y * side.x, cap.y);
-    return sqrt(nearest) * pick(beyond, real(-1.0f), real(1.0f));
+    // Within, the nearest feature is the plane of a face; on it the root's slope would be lost.
+    real beyond = max((from.x * side.y - from.y * side.x) / length(side), cap.y);
+    return pick(-beyond, sqrt(nearest), beyond);
 }
 vec2 spanCone(vec3 o, vec3 d, real radius, real radius2, real height) {
     return spanUpright(o, d, max(radius, radius2) * wider(), height * (0.5f * wider()));

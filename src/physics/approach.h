@@ -1,7 +1,6 @@
 #pragma once
 // When two things moving along known paths first touch.
 #include <cmath>
-#include <optional>
 
 namespace mb {
 
@@ -81,7 +80,7 @@ template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, co
                 side = -1;
             }
         }
-        return lo;
+        return hi;  // the gap jumps there: what is met is seen from then on
     };
 
     while (t < to) {

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +45,7 @@ public:
         return true;
     }
     std::span<const std::pair<int, int>> pairs() const { return pairs_; }
+    std::size_t bytes() const { return reach_.size() * sizeof(Reach) + pairs_.size() * sizeof pairs_[0]; }
 
 private:
     std::vector<Reach> reach_;

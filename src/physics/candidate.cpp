@@ -55,7 +55,10 @@ bool Settler::faces(const Candidate& c, double but) {
     return (c.of_a ? -facing : facing) >= c.from->cosine - but;
 }
 
-bool Settler::isContact(const Candidate& c) const { return c.gap <= margin_ && faces(c, coneOf(c)); }
+/// What moved along a curve may have left the cone of the point it came from.
+bool Settler::isContact(const Candidate& c) const {
+    return c.gap <= margin_ && (faces(c, coneOf(c)) || glm::dot(c.own, c.of_a ? -c.normal : c.normal) >= 1 - kCone);
+}
 
 /// At the other's edges the field has no one slope, and deep inside or beside them it has the wrong one: of a box just on the rim of
 /// another, or sunk into it there. So that of a sharp point is read ever further inside until the surfaces face one another.
@@ -123,24 +126,36 @@ bool Settler::settleLower(Candidate& io_c) const {
 
 Settler::Footing Settler::footingOf(const Candidate& c) const {
     Footing footing;
+    const glm::dmat3& turn = c.owner->pose.rotation;
     if (!c.from->sharp) {
         footing.own = slopeOf(*c.owner, c.at);
+        glm::dmat3 wide = turn, narrow = turn;
+        for (int k = 0; k < 3; ++k) wide[k] *= c.owner->solid->points.stretch()[k], narrow[k] /= c.owner->solid->points.stretch()[k];
+        footing.stretch = wide * glm::transpose(turn), footing.shrink = narrow * glm::transpose(turn);
         return footing;
     }
-    const glm::dmat3& turn = c.owner->pose.rotation;
     const double sine = std::sqrt(std::max(1 - c.from->cosine * c.from->cosine, 0.0));
     const glm::dvec3 middle = c.from->cosine * c.from->normal, across = sine * glm::cross(c.from->normal, c.from->along);
     footing.along = turn * c.from->along, footing.first = turn * (middle + across), footing.second = turn * (middle - across);
     return footing;
 }
 
-/// The way down: from a place on its own solid along the surface, or the edge, to where the other's field is less; its length is the
-/// sine of the angle between the two.
-glm::dvec3 Settler::downhill(const Footing& footing, const Slope& there) {
-    if (footing.along != glm::dvec3{0}) return -glm::dot(there.gradient, footing.along) * footing.along;
-    const glm::dvec3 own = footing.own.gradient;
+/// The way down: from a place on its own solid along the surface, or the edge, to where the other's field is less. Along a surface it is
+/// the steepest where the cells are cubes: of a needle's side, towards the tip rather than round it.
+Settler::Way Settler::downhill(const Footing& footing, const Slope& there) {
+    Way down;
+    if (footing.along != glm::dvec3{0}) {
+        down.way = -glm::dot(there.gradient, footing.along) * footing.along;
+        down.steep = down.slope = glm::length(down.way);
+        return down;
+    }
+    const glm::dvec3 own = footing.own.gradient, stretched = footing.stretch * own;
     const double l2 = glm::dot(own, own);
-    return l2 > 1e-6 ? (glm::dot(there.gradient, own) / l2) * own - there.gradient : glm::dvec3{0};
+    if (!(l2 > 1e-6)) return down;
+    down.slope = glm::length((glm::dot(there.gradient, own) / l2) * own - there.gradient);
+    const glm::dvec3 fall = (glm::dot(there.gradient, stretched) / glm::dot(own, stretched)) * own - there.gradient;
+    down.way = footing.stretch * fall, down.steep = std::sqrt(glm::dot(fall, down.way));
+    return down;
 }
 
 /// Brings a candidate onto its own solid's surface, or edge. Says whether it got there: past a rim there may be none to get to.
@@ -148,9 +163,9 @@ bool Settler::stand(Candidate& io_c, Footing& io_footing) const {
     if (io_footing.along != glm::dvec3{0}) return standOnEdge(io_c, io_footing);
     for (int round = 0; round < kDrops; ++round) {
         const Slope own = io_footing.own = slopeOf(*io_c.owner, io_c.at);
-        const double n2 = glm::dot(own.gradient, own.gradient);
-        if (!(n2 > 1e-6)) return false;
-        io_c.at -= (own.distance / n2) * own.gradient;  // the last one too: gaps must not jump by what is near enough
+        if (!(glm::dot(own.gradient, own.gradient) > 1e-6)) return false;
+        const glm::dvec3 way = io_footing.stretch * own.gradient;
+        io_c.at -= (own.distance / glm::dot(way, own.gradient)) * way;  // the last one too: gaps must not jump by what is near enough
         if (std::fabs(own.distance) <= kWorth * io_c.fineness()) return true;
     }
     return false;
@@ -185,28 +200,29 @@ bool Settler::standOnEdge(Candidate& io_c, Footing& io_footing) const {
 void Settler::refine(Candidate& io_c, Until until, double most) const {
     Slope there = otherAt(io_c, io_c.at);
     Footing footing = footingOf(io_c);
-    glm::dvec3 along = downhill(footing, there);
+    Way down = downhill(footing, there);
     const double longest = 0.25 * io_c.spacing();
     double stride = longest;
-    if (io_c.isCorner() || there.distance - glm::length(along) * io_c.spacing() > most) return;
-    for (int i = 0; i < 12; ++i) {
-        const double slant = glm::length(along);
-        if (slant < kLevel || slant * stride < kWorth * io_c.spacing()) break;
+    if (io_c.isCorner() || there.distance - down.slope * io_c.spacing() > most) return;
+    for (int i = 0; i < 24; ++i) {
+        if (down.slope < kLevel || down.steep * stride < kWorth * io_c.spacing()) break;
         Candidate next = io_c;
         Footing next_footing = footing;
-        next.at += (stride / slant) * along;
+        next.at += (stride / down.steep) * down.way;
         const Slope lower = stand(next, next_footing) ? otherAt(next, next.at) : there;
         if (lower.distance < there.distance - 1e-9 * stride) {
-            const glm::dvec3 on = downhill(next_footing, lower), moved = next.at - io_c.at;
-            if (until == Until::rim && slant < kSloping && glm::length(on) > 0.9 * slant) break;
-            const double curve = glm::dot(moved, along - on) / glm::dot(moved, moved);
-            stride = curve * longest > glm::length(on) ? glm::length(on) / curve : longest;
-            io_c = next, footing = next_footing, there = lower, along = on;
+            const Way on = downhill(next_footing, lower);
+            if (until == Until::rim && down.slope < kSloping && on.slope > 0.9 * down.slope) break;
+            const glm::dvec3 moved = next.at - io_c.at, metred = footing.shrink * moved;
+            const double curve = glm::dot(metred, down.way - on.way) / glm::dot(metred, moved);
+            stride = curve * longest > on.steep ? on.steep / curve : longest;
+            io_c = next, footing = next_footing, there = lower, down = on;
         } else {
             stride *= 0.25;
         }
     }
     setTo(io_c, there);
+    if (!io_c.from->sharp) io_c.own = glm::normalize(footing.own.gradient);
 }
 
 }  // namespace mb

@@ -18,6 +18,7 @@ struct Candidate {
     double inwards = 0;                     // where the other's field is read, m behind the point
     glm::dvec3 normal{0};                   // towards a
     bool lowest = false;                    // the surface falls no further there
+    glm::dvec3 own{0};                      // out of its owner, unit, once it moved along a curve; 0: not asked
 
     double spacing() const { return owner->solid->points.spacing(); }
     /// The finer of the two spacings, which small lengths are shares of: a die is small at a tray's rim.
@@ -49,6 +50,13 @@ private:
     struct Footing {
         Slope own;
         glm::dvec3 along{0}, first{0}, second{0};  // of an edge: its direction, and the normals of the faces on either side
+        glm::dmat3 stretch{1}, shrink{1};          // of a curve: the metric in which the owner's cells are cubes, and its inverse
+    };
+    /// The way down along a surface or an edge.
+    struct Way {
+        glm::dvec3 way{0};                         // steepest in the metric
+        double steep = 0;                          // its length there: how far the other's field falls for each metre of it
+        double slope = 0;                          // the sine of the angle between the surface and the other's level
     };
 
     Slope slopeOf(const Placed& p, glm::dvec3 at) const;
@@ -58,7 +66,7 @@ private:
     std::optional<bool> settleRound(Candidate& io_c) const;
     bool hasFoot(Candidate& io_c) const;
     Footing footingOf(const Candidate& c) const;
-    static glm::dvec3 downhill(const Footing& footing, const Slope& there);
+    static Way downhill(const Footing& footing, const Slope& there);
     bool stand(Candidate& io_c, Footing& io_footing) const;
     bool standOnEdge(Candidate& io_c, Footing& io_footing) const;
 

@@ -2,8 +2,13 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace mb {
 namespace {
+/// Of a contact with what does not move: less is undone by any way.
+bool isDeep(const Contact& c, const Body& body) { return c.gap < -0.02 * body.inner; }
+
 constexpr double kFollowed = 0.01;  // of half the thinner thickness: how far shapes may move against one another and keep their points
 }
 
@@ -24,7 +29,9 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
             return others.empty() ? Manifold{{}, within} : manifold({body.solid.get(), pose, 0}, others, within, io_evaluations);
         };
         addPoints(i, body, pose, kStatic, nullptr, {}, margin, find, io_contacts);
-        if (io_contacts.size() == before) addWayOut(i, body, pose, io_contacts);
+        const auto found = std::span(io_contacts).subspan(before);
+        if (std::ranges::any_of(found, [&](const Contact& c) { return isDeep(c, body); })) leaveBlocked(i, body, pose, before, io_contacts);
+        else addWayOut(i, body, pose, io_contacts);  // it may lie on a floor, in a box that stands there
     }
     counts_.static_contacts += io_contacts.size() - before;
 }
@@ -93,21 +100,45 @@ void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const 
     io_contacts.push_back(c);
 }
 
-/// A shape whose middle is in what does not move, where no surface faces its own, is parted along the field's slope there.
+/// A shape whose middle is in what does not move, where no surface that faces its own says so, is parted along the field's slope there, or if that leads
+/// into another solid, the shortest way.
 void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const {
-    Slope deepest;  // on the surface: what is outside gets contacts, or touches nothing
-    bool any = false;
-    field_.eachNear(pose.position, 0, [&](std::size_t s) {
+    if (!field_.contains(pose.position) || !holds(body, pose, pose.position)) return;
+    Slope deepest;
+    field_.eachNear(pose.position, body.radius, [&](std::size_t s) {
         const Solid& solid = field_.solid(s);
         if (distanceTo(solid.box, pose.position) > 0) return;
         field_.countEvaluations(1);
-        if (const Slope slope = solid.slopeAt(pose.position); slope.distance < deepest.distance) deepest = slope, any = true;
+        if (const Slope slope = solid.slopeAt(pose.position); slope.distance < deepest.distance) deepest = slope;
     });
-    if (!any || !holds(body, pose, pose.position)) return;
     const double steep = glm::length(deepest.gradient);
+    WayOut way{steep > 1e-6 ? deepest.gradient / steep : glm::dvec3{0, 1, 0}, -deepest.distance};
+    if (!(steep > 1e-6) || field_.isBlocked(pose.position + way.length * way.direction, way.direction, body.inner))
+        way = field_.wayOut(pose.position, body.inner).value_or(way);
+    addWayOut(i, body, {}, way, io_contacts);
+}
+
+void Collider::addWayOut(int i, const Body& body, glm::dvec3 arm, const WayOut& way, std::vector<Contact>& io_contacts) const {
     Contact& c = io_contacts.emplace_back();
-    c.a = i, c.normal = steep > 1e-6 ? deepest.gradient / steep : glm::dvec3{0, 1, 0}, c.gap = deepest.distance - body.inner;
+    c.a = i, c.normal = way.direction, c.gap = -way.length - body.inner, c.arm_a = arm;
     c.depth = restDepth(body.inner), c.way_out = true;
+}
+
+/// Of the contacts from `first` on leaves out those deep in one solid whose way out is into another, and adds the way out of both.
+void Collider::leaveBlocked(int i, const Body& body, const Pose& pose, std::size_t first, std::vector<Contact>& io_contacts) const {
+    double deepest = 0;
+    glm::dvec3 from{0};
+    const std::size_t before = io_contacts.size();
+    io_contacts.erase(std::remove_if(io_contacts.begin() + static_cast<std::ptrdiff_t>(first), io_contacts.end(), [&](const Contact& c) {
+        if (!isDeep(c, body)) return false;
+        const glm::dvec3 at = pose.position + c.arm_a;
+        if (!field_.isBlocked(at - c.gap * c.normal, c.normal, body.inner)) return false;
+        if (c.gap < deepest) deepest = c.gap, from = c.arm_a;
+        return true;
+    }), io_contacts.end());
+    if (io_contacts.size() == before) return;
+    if (field_.contains(pose.position)) from = {};
+    if (const auto way = field_.wayOut(pose.position + from, body.inner)) addWayOut(i, body, from, *way, io_contacts);
 }
 
 template <class Find>

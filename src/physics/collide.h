@@ -26,6 +26,8 @@ private:
                        std::vector<Contact>& io_contacts) const;
     void addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const;
     void addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const;
+    void addWayOut(int i, const Body& body, glm::dvec3 arm, const WayOut& way, std::vector<Contact>& io_contacts) const;
+    void leaveBlocked(int i, const Body& body, const Pose& pose, std::size_t first, std::vector<Contact>& io_contacts) const;
     bool holds(const Body& body, const Pose& pose, glm::dvec3 place) const;
     template <class Find>
     void addPoints(int i, const Body& a, const Pose& pose_a, int j, const Body* b, const Pose& pose_b, double margin, Find find,

@@ -8,6 +8,8 @@
 namespace mb {
 
 inline constexpr int kStatic = -1;
+/// Where things of bodies hold that of the body with this number.
+inline std::size_t slot(int body) { return static_cast<std::size_t>(body); }
 
 struct Contact {
     int a = 0, b = kStatic;        // numbers of bodies; b may be static

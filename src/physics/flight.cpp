@@ -139,7 +139,7 @@ void Flight::advance(std::size_t i, double t) {
     path.time = t;
 }
 
-/// Looks for the ball's next impact with what does not move.
+/// Looks for the body's next impact with what does not move.
 void Flight::expectStatic(std::size_t i) {
     if (!has(Stage::static_contacts) || field_.empty() || paths_[i].held || !bodies_[i].awake) return;
     const Body& b = bodies_[i];
@@ -279,7 +279,7 @@ void Flight::expectAll(std::size_t i) {
     for (const int j : neighbours_[i]) expectPair(i, static_cast<std::size_t>(j));
 }
 
-/// A ball that was made faster may get further than the pairs were looked for.
+/// A body that was made faster may get further than the pairs were looked for.
 void Flight::growReach(std::size_t i) {
     if (reach_.empty()) return;
     const double left = rules_.duration - paths_[i].time;

@@ -16,7 +16,7 @@
 
 namespace mb {
 
-inline constexpr int kEventsAPart = 48;  // of one ball; beyond it the body waits for the next part
+inline constexpr int kEventsAPart = 48;  // of one body; beyond it the body waits for the next part
 
 struct FlightRules {
     const World& world;

@@ -31,7 +31,7 @@ void Flight::addStaticContacts(int i, bool alone, std::vector<Contact>& io_conta
     dropApart(io_contacts, before, restDepth(body.inner), alone && !body.isBall());
 }
 
-/// The contacts of one or two balls at this moment: between the two, and with what does not move.
+/// The contacts of one or two bodies at this moment: between the two, and with what does not move.
 std::vector<Contact> Flight::contactsOf(int a, int b) {
     std::vector<Contact> contacts;
     if (has(Stage::static_contacts))
@@ -123,7 +123,7 @@ void Flight::support(const std::vector<Contact>& contacts) {
     }
 }
 
-/// Leaves a ball where it is for the rest of the part, with its velocity: neither energy nor a wall is lost by that.
+/// Leaves a body where it is for the rest of the part, with its velocity: neither energy nor a wall is lost by that.
 void Flight::hold(std::size_t i) {
     if (!paths_[i].held) held.push_back(static_cast<int>(i));
     paths_[i].held = true;

@@ -79,6 +79,13 @@ void ManifoldMemory::forget(std::uint32_t object) {
     std::erase_if(now_, [&](const Entry& e) { return e.a == object || e.b == object; });
 }
 
+std::size_t ManifoldMemory::bytes() const {
+    std::size_t sum = 0;
+    for (const std::vector<Entry>* entries : {&last_, &now_})
+        for (const Entry& e : *entries) sum += sizeof e + e.points.size() * sizeof e.points[0];
+    return sum;
+}
+
 ManifoldPoint pointOf(const FollowedPoint& followed, const Pose& pose_a, const Pose& pose_b) {
     ManifoldPoint p;
     p.point = pose_a.toWorld(followed.on_a);

@@ -49,6 +49,8 @@ public:
     void addTo(StateHash& io_hash) const;
     void forget(std::uint32_t object);
     void clear() { last_.clear(), now_.clear(); }
+    /// That a copy takes, but for its own size.
+    std::size_t bytes() const;
 
 private:
     Entry* lastOf(std::uint32_t a, std::uint32_t b);

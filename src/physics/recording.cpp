@@ -95,6 +95,7 @@ std::optional<Divergence> compare(const Recording& recording, const PhysicsWorld
 
 std::string describe(const Divergence& d) {
     const std::string what = d.body.empty() ? "the state is another, and no body is known to be" : fmt::format("body '{}' is another", d.body);
+    if (d.found == d.recorded) return fmt::format("at step {}: {}, by the hash of it that was recorded; that of the whole state is the same", d.step, what);
     return fmt::format("at step {}: {} (state {:016x}, recorded {:016x})", d.step, what, d.found, d.recorded);
 }
 

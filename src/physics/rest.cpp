@@ -15,22 +15,16 @@
 #include <numeric>
 
 namespace mb {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 /// Bodies that touch sleep and wake together: an island sleeps when each of them has been still for long enough.
 void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     ++counts_.islands;
     const int long_enough = static_cast<int>(std::ceil(kStillTime / (knobs_.dt / knobs_.substeps)));
     std::vector<char> restless(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].still < long_enough) restless[at(islands.of(static_cast<int>(i)))] = 1;
+        if (bodies_[i].still < long_enough) restless[slot(islands.of(static_cast<int>(i)))] = 1;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Body& b = bodies_[i];
-        b.awake = restless[at(islands.of(static_cast<int>(i)))];
+        b.awake = restless[slot(islands.of(static_cast<int>(i)))];
         if (!b.awake) b.velocity = {}, b.spin = {};
     }
 }
@@ -68,10 +62,10 @@ void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     if (!any) return;
     const std::span<const int> members = membersOf(io_contacts);
     std::vector<Motion>& moved = scratch_.motion;
-    for (const int i : members) moved[at(i)] = {};
+    for (const int i : members) moved[slot(i)] = {};
     solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
     for (Contact& c : io_contacts) c.push = 0;
-    for (const int i : members) move(bodies_[at(i)], moved[at(i)], h);
+    for (const int i : members) move(bodies_[slot(i)], moved[slot(i)], h);
 }
 
 /// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
@@ -92,9 +86,9 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
     if (!any) return;
     const std::span<const int> members = membersOf(contacts);
     std::vector<Motion>& motion = scratch_.motion;
-    for (const int i : members) motion[at(i)] = motionOf(bodies_[at(i)]);
+    for (const int i : members) motion[slot(i)] = motionOf(bodies_[slot(i)]);
     solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
-    for (const int i : members) bodies_[at(i)].velocity = motion[at(i)].velocity, bodies_[at(i)].spin = motion[at(i)].spin;
+    for (const int i : members) bodies_[slot(i)].velocity = motion[slot(i)].velocity, bodies_[slot(i)].spin = motion[slot(i)].spin;
 }
 
 /// The same contacts with the normals that balls will have half-way through the part; those that will have parted are left out.
@@ -109,10 +103,10 @@ std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, d
             midway.push_back(m);
             continue;
         }
-        const Body& a = bodies_[at(c.a)];
+        const Body& a = bodies_[slot(c.a)];
         const glm::dvec3 x = a.position + (0.5 * h) * a.velocity;
         if (c.b != kStatic) {
-            const Body& b = bodies_[at(c.b)];
+            const Body& b = bodies_[slot(c.b)];
             const glm::dvec3 apart = x - b.position - (0.5 * h) * b.velocity;
             if (const double d = glm::length(apart); d > 0.5 * (a.radius + b.radius)) m.normal = apart / d;
             m.arm_a = -a.radius * m.normal, m.arm_b = b.radius * m.normal;
@@ -155,15 +149,15 @@ void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
 /// Whether an impulse kept from the last part is this contact's: found from the same point, or at about the same place. Of a ball
 /// the normal alone tells.
 bool PhysicsWorld::isOf(const Kept& kept, const Contact& c) const {
-    if (allBalls() || bodies_[at(c.a)].isBall()) return glm::dot(kept.normal, c.normal) >= 0.98;
-    const bool same_place = glm::length(kept.arm - c.arm_a) <= 0.05 * bodies_[at(c.a)].radius;
+    if (allBalls() || bodies_[slot(c.a)].isBall()) return glm::dot(kept.normal, c.normal) >= 0.98;
+    const bool same_place = glm::length(kept.arm - c.arm_a) <= 0.05 * bodies_[slot(c.a)].radius;
     return (kept.feature == c.feature || same_place) && glm::dot(kept.normal, c.normal) >= 0.9;
 }
 
 /// The impulses kept of the contact's pair.
 PhysicsWorld::Range PhysicsWorld::keptOf(const Contact& c) const {
-    const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[at(c.b)];
-    Range range{kept_begin_[at(c.a)], kept_begin_[at(c.a) + 1]};
+    const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[slot(c.b)];
+    Range range{kept_begin_[slot(c.a)], kept_begin_[slot(c.a) + 1]};
     while (range.begin < range.end && kept_[range.begin].b != b) ++range.begin;
     std::size_t end = range.begin;
     while (end < range.end && kept_[end].b == b) ++end;
@@ -192,7 +186,7 @@ void PhysicsWorld::takeKept(std::span<Contact> contacts) {
     // What two shapes' lost points carried, the nearest of those they have now carry.
     for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
         for (end = i + 1; end < contacts.size() && contacts[end].a == contacts[i].a && contacts[end].b == contacts[i].b;) ++end;
-        if (bodies_[at(contacts[i].a)].isBall()) continue;
+        if (bodies_[slot(contacts[i].a)].isBall()) continue;
         const Range range = keptOf(contacts[i]);
         for (std::size_t k = range.begin; k < range.end; ++k) {
             if (taken[k]) continue;
@@ -214,13 +208,13 @@ void PhysicsWorld::keep(std::span<const Contact> carried, std::span<const Contac
             if (contacts[k].push > 0) visit(contacts[k]);
     };
     kept_begin_.assign(bodies_.size() + 1, 0);
-    each([&](const Contact& c) { ++kept_begin_[at(c.a) + 1]; });
+    each([&](const Contact& c) { ++kept_begin_[slot(c.a) + 1]; });
     std::partial_sum(kept_begin_.begin(), kept_begin_.end(), kept_begin_.begin());
     kept_.resize(kept_begin_.back());
     std::vector<std::uint32_t> next = kept_begin_;
     each([&](const Contact& c) {
-        const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[at(c.b)];
-        kept_[next[at(c.a)]++] = {scratch_.ids[at(c.a)], b, c.feature, c.normal, c.arm_a, c.push, c.drag, c.twist};
+        const std::uint32_t b = c.b == kStatic ? 0 : scratch_.ids[slot(c.b)];
+        kept_[next[slot(c.a)]++] = {scratch_.ids[slot(c.a)], b, c.feature, c.normal, c.arm_a, c.push, c.drag, c.twist};
     });
 }
 
@@ -250,11 +244,11 @@ std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, doub
     takeKept(midway);
     const std::span<const int> members = membersOf(midway);
     std::vector<Motion>& after = scratch_.motion;
-    for (const int i : members) after[at(i)] = {bodies_[at(i)].velocity + world_.fall() * h, bodies_[at(i)].spin};
+    for (const int i : members) after[slot(i)] = {bodies_[slot(i)].velocity + world_.fall() * h, bodies_[slot(i)].spin};
     solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
     for (const int i : members) {
-        const Body& b = bodies_[at(i)];
-        io_accelerations[at(i)] = {(after[at(i)].velocity - b.velocity) / h, (after[at(i)].spin - b.spin) / h};
+        const Body& b = bodies_[slot(i)];
+        io_accelerations[slot(i)] = {(after[slot(i)].velocity - b.velocity) / h, (after[slot(i)].spin - b.spin) / h};
     }
     return midway;
 }
@@ -265,8 +259,8 @@ void PhysicsWorld::countStill(std::span<const Contact> contacts, double h) {
     std::vector<char> touches(bodies_.size(), world_.gravity == 0), deep(bodies_.size(), 0);
     for (const Contact& c : contacts) {
         const bool touching = c.gap <= c.depth, overlaps = c.gap < -2 * c.depth;
-        touches[at(c.a)] |= touching, deep[at(c.a)] |= overlaps;
-        if (c.b != kStatic) touches[at(c.b)] |= touching, deep[at(c.b)] |= overlaps;
+        touches[slot(c.a)] |= touching, deep[slot(c.a)] |= overlaps;
+        if (c.b != kStatic) touches[slot(c.b)] |= touching, deep[slot(c.b)] |= overlaps;
     }
     const double limit = std::min(knobs_.sleep_speed, knobs_.sleep_speed / kWeakFall * (std::fabs(world_.gravity) * h));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -11,8 +11,6 @@
 namespace mb {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The angular impulse of a contact on its body a, and the opposite one on b.
 struct Twist {
     const Contact& contact;
@@ -28,7 +26,7 @@ struct Response {
     const Contact& contact;
     bool holds = false;
 
-    Response(std::span<const Body> bodies, const Contact& c, bool drags) : a(bodies[at(c.a)]), b(c.b == kStatic ? nullptr : &bodies[at(c.b)]), contact(c) {
+    Response(std::span<const Body> bodies, const Contact& c, bool drags) : a(bodies[slot(c.a)]), b(c.b == kStatic ? nullptr : &bodies[slot(c.b)]), contact(c) {
         holds = drags && !b && glm::length(c.drag) < (1 - 1e-9) * c.pairing.friction * c.push;
     }
     /// The moment of inertia about an axis, kg·m².
@@ -42,15 +40,15 @@ struct Response {
         if (!(size > 0)) return;
         const glm::dvec3 axis = impulse / size, turns = a.worldInverseInertia() * impulse;
         const double share = holds ? 1 / (inertia(axis) * glm::dot(axis, a.worldInverseInertia() * axis)) : 1;
-        io_spins[at(contact.a)] += share * turns;
-        if (b) io_spins[at(contact.b)] -= b->worldInverseInertia() * impulse;
+        io_spins[slot(contact.a)] += share * turns;
+        if (b) io_spins[slot(contact.b)] -= b->worldInverseInertia() * impulse;
     }
 };
 
 /// One turn of a contact's torque towards no relative spin, within its limits; says by how much it changed a spin.
 double turn(Twist& io_twist, const Response& response, std::span<glm::dvec3> io_spins) {
     const Contact& c = io_twist.contact;
-    const auto relative = [&] { return c.b == kStatic ? io_spins[at(c.a)] : io_spins[at(c.a)] - io_spins[at(c.b)]; };
+    const auto relative = [&] { return c.b == kStatic ? io_spins[slot(c.a)] : io_spins[slot(c.a)] - io_spins[slot(c.b)]; };
     double changed = 0;
     const double about = glm::dot(relative(), c.normal), of_normal = response.inertia(c.normal), most = c.pairing.spinning * c.push;
     const double spinning = std::clamp(io_twist.spinning - of_normal * about, -most, most), by = spinning - io_twist.spinning;
@@ -75,7 +73,7 @@ void solveIsland(std::span<const Body> bodies, std::span<Contact> io_contacts, s
     std::vector<std::pair<std::size_t, Motion>> free;  // of the bodies, some of them more than once
     for (const Contact& c : io_contacts)
         for (const int i : {c.a, c.b})
-            if (i != kStatic) free.emplace_back(at(i), io_motion[at(i)]);
+            if (i != kStatic) free.emplace_back(slot(i), io_motion[slot(i)]);
     solve(bodies, io_contacts, io_motion, rounds, stages, io_counts);
     const bool drags = stages.has(Stage::friction);
     for (int round = 0; round < rounds; ++round) {
@@ -88,8 +86,8 @@ void solveIsland(std::span<const Body> bodies, std::span<Contact> io_contacts, s
         for (const Twist& twist : io_twists) {
             const Contact& c = twist.contact;
             const glm::dvec3 impulse = twist.rolling + twist.spinning * c.normal;
-            io_motion[at(c.a)].spin += bodies[at(c.a)].worldInverseInertia() * impulse;
-            if (c.b != kStatic) io_motion[at(c.b)].spin -= bodies[at(c.b)].worldInverseInertia() * impulse;
+            io_motion[slot(c.a)].spin += bodies[slot(c.a)].worldInverseInertia() * impulse;
+            if (c.b != kStatic) io_motion[slot(c.b)].spin -= bodies[slot(c.b)].worldInverseInertia() * impulse;
         }
         solve(bodies, io_contacts, io_motion, rounds, stages, io_counts);
     }

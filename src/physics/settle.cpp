@@ -5,10 +5,6 @@
 #include "physics/world.h"
 
 namespace mb {
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
-
 /// Settles each island of balls. `numbers`: of the contacts, island by island.
 void PhysicsWorld::settleCrowds(std::span<Contact> contacts, std::span<const std::uint32_t> numbers, double h, std::span<Motion> io_accelerations) {
     if (numbers.empty()) return;
@@ -44,7 +40,7 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
         s.addMembers(c);
     }
     const glm::dvec3 fall = world_.fall() * h;
-    for (const int i : s.members) s.motions.now[at(i)].set(bodies_[at(i)], {bodies_[at(i)].velocity + fall, bodies_[at(i)].spin}, has(Stage::spin));
+    for (const int i : s.members) s.motions.now[slot(i)].set(bodies_[slot(i)], {bodies_[slot(i)].velocity + fall, bodies_[slot(i)].spin}, has(Stage::spin));
     s.unmark();
     s.crowd.set(s.motions, contacts, island, s.apart, s.used);
     s.unmark();
@@ -53,13 +49,13 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
     if (has(Stage::friction)) counts_.drags += rough * static_cast<std::uint64_t>(rounds);
     s.crowd.finish(contacts, s.used);
     for (const int i : s.members) {
-        Body& b = bodies_[at(i)];
-        if (parts) move(b, {s.motions.now[at(i)].getApart(), {}}, h);
-        if (s.used[at(i)] == 0) continue;
-        const Motion m = s.motions.now[at(i)].get();
+        Body& b = bodies_[slot(i)];
+        if (parts) move(b, {s.motions.now[slot(i)].getApart(), {}}, h);
+        if (s.used[slot(i)] == 0) continue;
+        const Motion m = s.motions.now[slot(i)].get();
         b.velocity = m.velocity;
         if (has(Stage::spin)) b.spin = m.spin;
-        io_accelerations[at(i)] = {};
+        io_accelerations[slot(i)] = {};
     }
     s.unmark();
 }

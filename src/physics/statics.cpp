@@ -43,7 +43,12 @@ double StaticField::touches(glm::dvec3 centre, double radius, double margin, std
     });
     evaluations_.add(evaluations);
     if (out_room) *out_room = room;
+    // In a solid it goes out at the nearest face, unless that stands on another.
+    std::optional<WayOut> way;
+    if (room < -radius && std::erase_if(out, [&](const Touch& t) { return t.gap < -radius && isBlocked(t.point, t.normal, radius); }))
+        way = wayOut(centre, radius);
     keepUnhidden(out, radius);
+    if (way) out.insert(out.begin(), {centre + way->length * way->direction, way->direction, -way->length - radius});
     return out.empty() ? free : std::min(free, out.front().gap);
 }
 
@@ -55,6 +60,52 @@ double StaticField::room(glm::dvec3 centre, double radius) const {
         else evaluations_.add(1), room = std::min(room, solids_[i].at(centre) - radius);
     });
     return room;
+}
+
+bool StaticField::isBlocked(glm::dvec3 exit, glm::dvec3 normal, double thick) const {
+    bool blocked = false;
+    const glm::dvec3 beyond = exit + thick * normal;
+    eachNear(beyond, thick, [&](std::size_t i) {
+        if (blocked || distanceTo(solids_[i].box, beyond) > 0) return;
+        const Slope s = solids_[i].slopeAt(beyond);
+        evaluations_.add(1);
+        blocked = s.distance < 0 && glm::dot(s.gradient, normal) < -0.5 * glm::length(s.gradient);
+    });
+    return blocked;
+}
+
+/// The least of the solids' fields, m, where it is negative; else 0.
+double StaticField::deepestAt(glm::dvec3 place) const {
+    if (grid_) return std::min(grid_->distance(place), 0.0);
+    double deepest = 0;
+    for (const Solid& solid : solids_)
+        if (distanceTo(solid.box, place) <= 0) evaluations_.add(1), deepest = std::min(deepest, solid.at(place));
+    return deepest;
+}
+
+/// By strides that are certain to stay in the deepest solid; infinite, if it is more than `most`, or takes too many strides.
+double StaticField::lengthOut(glm::dvec3 from, glm::dvec3 direction, double thick, double most) const {
+    constexpr int kStrides = 100;
+    constexpr double kShortest = 0.01;  // of the thickness
+    double length = 0;
+    for (int i = 0; i < kStrides && length < most; ++i) {
+        const double deep = deepestAt(from + length * direction);
+        if (deep == 0 && deepestAt(from + (length + thick) * direction) == 0) return length;
+        length += deep < 0 ? std::max(-deep, kShortest * thick) : thick;
+    }
+    return INFINITY;
+}
+
+std::optional<WayOut> StaticField::wayOut(glm::dvec3 from, double thick) const {
+    WayOut best{{}, INFINITY};
+    for (int k = 0; k < 27; ++k) {
+        const glm::dvec3 way{k / 3 % 3 - 1, 1 - k / 9, k % 3 - 1};  // upwards first
+        if (way == glm::dvec3{0}) continue;
+        const glm::dvec3 direction = glm::normalize(way);
+        if (const double length = lengthOut(from, direction, thick, best.length); length < best.length) best = {direction, length};
+    }
+    if (best.length == 0 || best.length == INFINITY) return std::nullopt;
+    return best;
 }
 
 }  // namespace mb

@@ -4,6 +4,7 @@
 #include "physics/touch.h"
 
 #include <atomic>
+#include <optional>
 
 namespace mb {
 
@@ -18,6 +19,12 @@ public:
 
 private:
     std::atomic<std::uint64_t> count_{0};
+};
+
+/// A straight way out of the solids a place lies in.
+struct WayOut {
+    glm::dvec3 direction{0};  // unit
+    double length = 0;        // m
 };
 
 /// Several threads may ask it at once.
@@ -35,6 +42,13 @@ public:
 
     /// What the distances prove to be free around a ball, m from its surface on.
     double room(glm::dvec3 centre, double radius) const;
+    /// Whether a place is in a solid.
+    bool contains(glm::dvec3 place) const { return deepestAt(place) < 0; }
+    /// Whether what goes out of one solid at `exit`, along its normal, and is `thick` (m), goes into another that would send it back: a
+    /// floor below a box that stands on it.
+    bool isBlocked(glm::dvec3 exit, glm::dvec3 normal, double thick) const;
+    /// The shortest of 26 straight ways to where something so thick is in no solid; nothing, if it is there, or none is known.
+    std::optional<WayOut> wayOut(glm::dvec3 from, double thick) const;
     /// visit(number), of the solids that may have a surface within reach of the centre, in order.
     template <class Visit> void eachNear(glm::dvec3 centre, double reach, Visit visit) const {
         if (grid_) return eachInGrid(centre, reach, visit);
@@ -48,6 +62,8 @@ public:
 
 private:
     void eachInGrid(glm::dvec3 centre, double reach, const std::function<void(std::size_t)>& visit) const;
+    double deepestAt(glm::dvec3 place) const;
+    double lengthOut(glm::dvec3 from, glm::dvec3 direction, double thick, double most) const;
 
     std::vector<Solid> solids_;
     std::shared_ptr<const Grid> grid_;       // of them all together, where they are many

@@ -21,14 +21,23 @@ struct Plane {
     glm::dvec3 point{0}, normal{0};
 };
 
-/// The surface's plane next to p, if Newton's steps along the gradient reach the surface within `reach`.
+/// The squares of a box's sides, as shares of its longest.
+glm::dvec3 stretchOf(glm::dvec3 sides) {
+    const glm::dvec3 share = sides / std::max({sides.x, sides.y, sides.z});
+    return share * share;
+}
+
+/// The surface's plane next to p, if Newton's steps reach the surface within `reach`: steps along the gradient of a frame in which that
+/// is a cube, so that of a needle the side is found from beside it and the tip from above.
 std::optional<Plane> planeNear(const Tree& tree, glm::dvec3 p, glm::dvec3 centre, glm::dvec3 reach, double on) {
+    const glm::dvec3 stretch = stretchOf(reach);
     for (int i = 0; i < 8; ++i) {
         const Slope s = slope(tree, p);
         const double l2 = glm::dot(s.gradient, s.gradient);
         if (!(l2 > 1e-6)) return std::nullopt;
         if (std::fabs(s.distance) <= on) return Plane{p, s.gradient / std::sqrt(l2)};
-        p -= (s.distance / l2) * s.gradient;
+        const glm::dvec3 way = stretch * s.gradient;
+        p -= (s.distance / glm::dot(way, s.gradient)) * way;
         const glm::dvec3 off = glm::abs(p - centre);
         if (off.x > reach.x || off.y > reach.y || off.z > reach.z) return std::nullopt;
     }
@@ -100,12 +109,14 @@ public:
     Cell(const Tree& tree, glm::dvec3 centre, glm::dvec3 half, double size) : tree_(tree), centre_(centre), half_(half), on_(1e-10 * size) {}
 
     void addTo(std::vector<SurfacePoint>& out) const {
-        std::vector<Plane> front, back;  // two sides of a thin wall
-        for (const Plane& plane : planes(centre_, 1)) {
+        const std::vector<Plane> all = planes(centre_, 1);
+        std::vector<Plane> front, back;
+        for (const Plane& plane : all) {
             const bool behind = !front.empty() && glm::dot(plane.normal, front[0].normal) < -0.5;
             (behind ? back : front).push_back(plane);
         }
-        addSide(front, out), addSide(back, out);
+        if (!back.empty() && addTip(all, out)) return;
+        addSide(front, out), addSide(back, out);  // of a thin wall
     }
 
 private:
@@ -153,6 +164,17 @@ private:
         found.place = meet, found.sharp = found.cosine < kSharp;
         if (found.sharp) found.along = edgeOf(near);
         io_point = found;
+        return true;
+    }
+
+    /// A needle's tip or a blade's edge, where all the planes meet.
+    bool addTip(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
+        SurfacePoint tip;
+        tip.place = meetingPoint(planes), tip.sharp = true;
+        if (!isOn(tip.place) || !isWithin(tip.place) || isHollow(planes)) return false;
+        setCone(planes, tip);
+        tip.along = edgeOf(planes);
+        out.push_back(tip);
         return true;
     }
 
@@ -225,7 +247,8 @@ private:
 
 }  // namespace
 
-SurfacePoints::SurfacePoints(std::vector<SurfacePoint> points, double spacing) : points_(std::move(points)), spacing_(spacing) {
+SurfacePoints::SurfacePoints(std::vector<SurfacePoint> points, double spacing, glm::dvec3 stretch)
+    : points_(std::move(points)), spacing_(spacing), stretch_(stretch) {
     if (!points_.empty()) build(0, static_cast<std::uint32_t>(points_.size()));
 }
 
@@ -270,7 +293,7 @@ SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner)
                 out_inner = std::max(out_inner, -f);
                 if (std::fabs(f) <= reach) Cell(tree, centre, half, longest).addTo(points);
             }
-    return SurfacePoints(std::move(points), 2 * reach);
+    return SurfacePoints(std::move(points), 2 * reach, stretchOf(cell));
 }
 
 }  // namespace mb

@@ -32,12 +32,14 @@ public:
     };
 
     SurfacePoints() = default;
-    SurfacePoints(std::vector<SurfacePoint> points, double spacing);
+    SurfacePoints(std::vector<SurfacePoint> points, double spacing, glm::dvec3 stretch);
 
     std::span<const SurfacePoint> points() const { return points_; }
     /// How far apart neighbours are at most, m: the diagonal of a cell.
     double spacing() const { return spacing_; }
     bool empty() const { return points_.empty(); }
+    /// The squares of a cell's sides, as shares of its longest: the metric in which the cells are cubes.
+    glm::dvec3 stretch() const { return stretch_; }
 
     /// Visits the points of every node that `may(centre, radius)` holds open: visit(number, point).
     template <class May, class Visit> void search(May may, Visit visit) const {
@@ -59,6 +61,7 @@ private:
     std::vector<SurfacePoint> points_;
     std::vector<Node> nodes_;          // each before those below it
     double spacing_ = 0;
+    glm::dvec3 stretch_{1};
 };
 
 /// The points of a bounded shape, by a grid of cells over its box: in each cell that the surface crosses, the planes that touch

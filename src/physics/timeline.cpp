@@ -9,17 +9,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSlow_s = 0.1;          // where fewer steps take so long, they need not be made again to go back
-constexpr std::size_t kTouches = 2;      // that a body keeps in mind, on average
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::size_t bytesOf(const Scene& scene) {
     return sizeof(Scene) + scene.objects.size() * (sizeof(Object) + 32) + scene.materials.size() * sizeof(Material);
-}
-/// Of a copy, but for the static shapes: bodies with what they keep in mind.
-std::size_t bytesOf(const PhysicsWorld& world) {
-    constexpr std::size_t kBody = sizeof(Body) + sizeof(NearStatics) + kTouches * sizeof(Touch);
-    return sizeof(PhysicsWorld) + (world.bodies().size() + world.frozen().size()) * kBody;
 }
 std::size_t bytesOf(const Tree& tree) {
     return tree.leaves.size() * (sizeof(Leaf) + 1) + tree.branches.size() * sizeof(Branch) + tree.program.size() * sizeof(Instruction);
@@ -56,7 +50,7 @@ const std::shared_ptr<const Scene>& Timeline::scene() const {
 
 Timeline::Snapshot Timeline::snapshot() {
     if (counted_ != scene()) counted_ = scene(), static_bytes_ = world_.bodies().empty() ? 0 : bytesOf(makeTree(*counted_));
-    return {world_, done_, bytesOf(world_) + static_bytes_};
+    return {world_, done_, world_.bytes() + static_bytes_};
 }
 
 void Timeline::restore(const Snapshot& from) {

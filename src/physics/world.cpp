@@ -2,7 +2,6 @@
 
 #include "core/effects/effect.h"
 #include "physics/hash.h"
-#include "physics/quick_hash.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -43,8 +42,8 @@ void PhysicsWorld::step() {
     ++steps_;
 }
 
-/// A contact that gravity alone closes again within two parts is a resting one.
-double PhysicsWorld::bounceSpeed(double h) const { return 2 * std::fabs(world_.gravity) * h; }
+/// A contact that gravity alone closes again within two parts is a resting one; and without gravity, one that the solver's rounding does.
+double PhysicsWorld::bounceSpeed(double h) const { return std::max(2 * std::fabs(world_.gravity) * h, 1e-9); }
 
 void PhysicsWorld::part(double h) {
     // Sleepers lie still, and only what is awake, or what is done to the world between steps, wakes them. No impulse is kept
@@ -249,6 +248,12 @@ double PhysicsWorld::maxPenetration() const {
     double deepest = 0;
     for (const Contact& c : contacts) deepest = std::max(deepest, -c.gap);
     return deepest;
+}
+
+std::size_t PhysicsWorld::bytes() const {
+    constexpr std::size_t kTouches = 2;  // that a body keeps in mind, on average
+    constexpr std::size_t kBody = sizeof(Body) + sizeof(NearStatics) + kTouches * sizeof(Touch) + sizeof kept_begin_[0];
+    return sizeof *this + (bodies_.size() + frozen_.size()) * kBody + kept_.size() * sizeof(Kept) + memory_.bytes() + pairs_.bytes();
 }
 
 std::uint64_t PhysicsWorld::stateHash() const {

@@ -7,7 +7,7 @@
 // What it does is the same on every machine and compiler, to the bit: see stateHash().
 //
 // Each of these is there if a row of the table of effects calls for it (stages.h): a part is composed of the stages that the
-// bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no ball is awake a
+// bodies and solids of the scene need, and a stage that is left out would have changed nothing. Where no body is awake a
 // step only counts the time.
 #include "core/measure/parallel.h"
 #include "physics/crowd.h"
@@ -18,10 +18,10 @@
 
 namespace mb {
 
-inline constexpr double kTopSpeed = 1e4;       // m/s: a faster ball is slowed down to this, and noted
+inline constexpr double kTopSpeed = 1e4;       // m/s: a faster body is slowed down to this, and noted
 inline constexpr double kTopSpin = 1e6;        // rad/s
 inline constexpr double kPushOutSpeed = 3;     // m/s: how fast an overlap is undone at most
-inline constexpr double kStillTime = 0.5;      // s: a ball sleeps that touches something and is still for so long
+inline constexpr double kStillTime = 0.5;      // s: a body sleeps that touches something and is still for so long
 inline constexpr double kWeakFall = 0.03;      // m/s: where gravity gives less in a part, what is still is slower in proportion
 
 struct Energy {
@@ -79,12 +79,14 @@ public:
     /// is not in it.
     std::uint64_t stateHash() const;
     std::string stateText() const;                             // 16 hex digits of it
+    /// That a copy of it takes, but for the static shapes, about.
+    std::size_t bytes() const;
     /// Over what stateHash() takes of that body, by a quicker hash: to tell which body differs.
     std::uint64_t bodyHash(std::size_t body) const;
 
-    /// Gives a ball a velocity (m/s) and a spin (rad/s) and wakes it, and what it touches.
+    /// Gives a body a velocity (m/s) and a spin (rad/s) and wakes it, and what it touches.
     void setMotion(std::size_t body, glm::dvec3 velocity, glm::dvec3 spin);
-    /// Throws every ball about: velocities up to `speed`, upwards more than down, the same for the same seed.
+    /// Throws every body about: velocities up to `speed`, upwards more than down, the same for the same seed.
     void throwAbout(std::uint64_t seed, double speed);
     /// Holds a body's point to a target by a spring, critically damped and no stronger than kGrabPull, until it is let go, and calms
     /// its turning; done again, moves the target. `arm` is from its centre of mass, in the body's frame. What is held does not sleep.
@@ -94,9 +96,9 @@ public:
     /// Gives every body whose centre of mass is nearer to `at` than `radius` a velocity away from there, and wakes it: `speed` next to
     /// it, falling linearly to 0 at the radius. What is exactly there goes up. Nothing shields, and nothing is turned.
     void explode(glm::dvec3 at, double speed, double radius);
-    /// Takes the static shapes, the world and the knobs from an edited scene and wakes everything; the balls stay.
+    /// Takes the static shapes, the world and the knobs from an edited scene and wakes everything; the bodies stay.
     void changeStatics(const Scene& scene);
-    /// Takes a ball out and wakes what touched it.
+    /// Takes a body out and wakes what touched it.
     void remove(ObjectId object);
     /// Writes pos, rot, vel and spin of each body into its object; objects of removed bodies leave the scene.
     void writeTo(Scene& scene) const;

@@ -82,16 +82,22 @@ TEST_CASE("60 carved dice poured into a tray come to rest, and are not in one an
             add(s, "sphere", at, {0.05}, die);
     }
     PhysicsWorld w(s);
-    double deepest = 0;
+    std::vector<double> deepest;
     while (w.awake() > 0 && w.time_s() < 12) {
         w.step();
-        if (w.steps() % 60 == 0) deepest = std::max(deepest, w.maxPenetration());
+        if (w.steps() % 5 == 0) deepest.push_back(w.maxPenetration());
     }
+    std::ranges::sort(deepest);
+    const auto share = [&](double of_all) { return deepest[static_cast<std::size_t>(of_all * static_cast<double>(deepest.size() - 1))]; };
     CHECK(w.awake() == 0);
     CHECK(w.bodies().size() == 60);
     CHECK(w.maxPenetration() < 1e-3);
-    CHECK(deepest < 5e-3);  // while they still fall: at 7 m/s one comes 29 mm a part
-    MESSAGE("dice: asleep at ", w.time_s(), " s, deepest ", w.maxPenetration(), " then, ", deepest, " on the way");
+    // While they still fall one comes up to 29 mm in a part, at 7 m/s: an instant after an impact it may be as deep.
+    CHECK(share(0.5) < 5e-4);
+    CHECK(share(0.9) < 5e-3);
+    CHECK(share(1) < 30e-3);
+    MESSAGE("dice: asleep at ", w.time_s(), " s, deepest ", w.maxPenetration(), " then; on the way mostly ", share(0.5), ", a tenth of the time over ",
+            share(0.9), ", at most ", share(1));
 }
 
 TEST_CASE("a box falls, tumbles and comes to lie on a face; an infinite body does not move") {
@@ -119,5 +125,5 @@ TEST_CASE("shapes come to the same state on every compiler and at every level of
     REQUIRE(dice.ok());
     PhysicsWorld w(dice.scene);
     for (int i = 0; i < 150; ++i) w.step();
-    CHECK(w.stateText() == "fcf9d7266cb58b4b");
+    CHECK(w.stateText() == "2b3445f59e2c1ff5");
 }

@@ -95,6 +95,54 @@ TEST_CASE("of two rounded boxes in any position the nearest place is found") {
     MESSAGE("worst ", worst, ", missed ", missed);
 }
 
+namespace {
+/// How far a shape of this kind reaches in a direction from its middle, m.
+double reachOf(std::string_view type, std::span<const double> n, glm::dvec3 d) {
+    if (type == "capsule") return n[0] + 0.5 * n[1] * std::fabs(d.y);
+    if (type == "ellipsoid") return glm::length(glm::dvec3{n[0], n[1], n[2]} * d);
+    if (type == "cylinder") return n[0] * std::hypot(d.x, d.z) + 0.5 * n[1] * std::fabs(d.y);
+    if (type == "cone") return std::max(0.5 * n[2] * d.y, n[0] * std::hypot(d.x, d.z) - 0.5 * n[2] * d.y);  // pointed
+    if (type == "torus") return n[0] * std::hypot(d.x, d.z) + n[1];
+    const glm::dvec3 core = 0.5 * glm::dvec3{n[0], n[1], n[2]} - n[3];  // a box
+    return n[3] + glm::dot(core, glm::abs(d));
+}
+}  // namespace
+
+TEST_CASE("of thin shapes in any position the lowest place over a floor is found") {
+    struct Kind {
+        std::string_view type;
+        std::vector<double> numbers;
+    };
+    const std::vector<Kind> kinds{{"capsule", {0.02, 2}}, {"capsule", {0.003, 2}}, {"ellipsoid", {0.02, 1, 0.02}}, {"ellipsoid", {0.5, 0.02, 0.5}},
+                                  {"ellipsoid", {0.3, 0.1, 0.05}}, {"cylinder", {0.02, 2}}, {"cylinder", {0.5, 0.01}}, {"cone", {0.05, 0, 1}},
+                                  {"torus", {0.5, 0.02}}, {"box", {0.02, 2, 0.02, 0}}, {"box", {0.02, 2, 0.02, 0.009}}, {"box", {1, 0.01, 1, 0.003}}};
+    Scene under;
+    floor(under);
+    const Solid ground = makeSolid(makeTree(under), false);
+    for (const Kind& kind : kinds) {
+        Scene s;
+        std::ranges::copy(kind.numbers, add(s, kind.type, {}, {}).numbers.begin());
+        const Solid solid = makeSolid(makeTree(s), true);
+        Random random(5);
+        double worst = 0;
+        for (int i = 0; i < 400; ++i) {
+            const double tilt = random.in(0, kPi), turn = random.in(-kPi, kPi), wanted = random.in(-0.01, 0.01) * solid.inner;
+            Placed a{&solid, turnedBy({}, {tilt, 0, 0}), 0}, b{&ground, {}, 0};
+            a.pose.rotation = a.pose.rotation * turnedBy({}, {0, turn, 0}).rotation;
+            a.pose.position.y = wanted + reachOf(kind.type, kind.numbers, glm::dvec3{0, -1, 0} * a.pose.rotation);
+            std::uint64_t evaluations = 0;
+            double found = INFINITY;
+            for (const ManifoldPoint& p : manifold(a, {&b, 1}, 0.25 * solid.inner, evaluations).points) found = std::min(found, p.gap);
+            worst = std::max(worst, std::fabs(found - wanted) / solid.inner);
+        }
+        CAPTURE(kind.type);
+        CAPTURE(kind.numbers[0]);
+        MESSAGE(kind.type, " ", kind.numbers[0], ": worst ", worst, " of half its thickness");
+        // Where a ring lies nearly flat all of it is low; the search for the lowest place ends after some strides.
+        CHECK(worst < 0.1);
+    }
+}
+
 TEST_CASE("a corner in a pip touches its rim where it is deepest") {
     // The rim is a circle, and the rounded box is convex with an exact distance: its least value on the circle is the depth.
     constexpr double kHalf = 0.25, kPip = 0.05;
