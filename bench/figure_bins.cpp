@@ -61,7 +61,6 @@ void runPhysics(PhysicsBench& bench) {
     bench.print({{"figure", "about"}, {"rounds", bench.options.rounds}, {"seed", bench.options.seed}});
     const std::vector<const BinEngine*> engines = enginesFor(bench);
     for (const int balls : bench.options.balls) compare(bench, engines, balls);
-    if (!bench.options.only.empty()) return;
     for (const int dice : bench.options.dice) printPile(bench, dice);
 }
 

@@ -8,7 +8,7 @@ struct PhysicsOptions {
     int rounds = 3;
     std::uint64_t seed = kSeed;
     std::vector<int> balls{500, 2000, 8000};  // of each bin
-    std::vector<int> dice{500};               // of each pile; with `only` there is none
+    std::vector<int> dice{500};               // of each pile
     std::vector<std::string> only;            // names of binEngines(), marchbox aside; none: all
 };
 

@@ -120,13 +120,14 @@ std::function<void()> make(CLI::App& app, Common& common) {
         ->check(within(1, 100'000));
     physics->add_option("--dice", p->dice, "how many carved dice in each pile, a list with commas")->delimiter(',')->capture_default_str()
         ->check(within(1, 10'000));
-    physics->add_option("--only", p->only, "the engines compared with, a list with commas, of " + namesOf(peers()))->delimiter(',');
+    physics->add_option("--only", p->only, "the engines compared with, a list with commas, of " + namesOf(peers()) + "; no pile then, but with --dice")->delimiter(',');
     const auto quick = std::make_shared<bool>(false);
     physics->add_flag("--quick", *quick, "one bin of 27 balls, one pile of 27 dice: does it work?");
     return [=, &app, &common] {
         readSize(*r), readSize(*e);
         if (app.count("--seed") > 0) r->bench.seed = parseSeed(common), p->seed = common.seed;
-        if (*quick) p->balls = {27}, p->dice = {27};
+        if (!p->only.empty() && physics->count("--dice") == 0) p->dice.clear();
+        if (*quick) p->balls = {27}, p->dice.assign(p->dice.empty() ? 0 : 1, 27);
         checkNames(r->bench.only, bench::figures()), checkNames(p->only, peers());
         if (e->bench.quick && effects->count("--rounds") == 0) e->bench.rounds = 5;
         if (*physics) collide(*p, common);

@@ -176,6 +176,8 @@ void Reader::warn() {
         const Object& o = scene_.objects[i];
         if (i >= object_places_.size()) return;
         const auto [line, column] = object_places_[i];
+        if (!o.isBody() && (o.vel != glm::dvec3{0} || o.spin != glm::dvec3{0}))
+            warnings_.push_back({line, column, fmt::format("{} has a vel or a spin, but no mass and no density, and does not move", shown(label(scene_, i)))});
         if (o.isBody() && o.type->name != "sphere" && isInfinite(scene_, i))
             warnings_.push_back({line, column, fmt::format("{} has a mass but is infinite, and does not move", shown(label(scene_, i)))});
     }

@@ -35,16 +35,7 @@ std::vector<Fault> Faults::take() {
 
 ReadResult Reader::read(std::string_view bytes) {
     if (wholeText(bytes)) {
-        if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-        int number = 0;
-        for (std::size_t at = 0; at < bytes.size() && !faults_.stopped();) {
-            const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-            std::string_view line = bytes.substr(at, end - at);
-            if (line.ends_with('\r')) line.remove_suffix(1);
-            faults_.startLine(++number, line);
-            readLine(line);
-            at = end + 1;
-        }
+        faults_.eachLine(bytes, [&](std::string_view line) { readLine(line); });
         if (form_ == Form::unknown && faults_.none()) faults_.add(Place{}, "there is no record, expected 'marchbox 1'");
         if (!faults_.stopped()) form_ == Form::older ? finishOlder() : finishObjects();
     }

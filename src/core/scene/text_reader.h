@@ -3,6 +3,7 @@
 #include "core/scene/text.h"
 #include "core/scene/text_value.h"
 
+#include <algorithm>
 #include <map>
 
 namespace mb::text {
@@ -25,6 +26,20 @@ public:
     bool none() const { return faults_.empty(); }
     std::size_t count() const { return faults_.size(); }
     std::vector<Fault> take();
+    /// The lines of a file, without their ends and a byte order mark, until no more are wanted; the last one's number.
+    template <class Read> int eachLine(std::string_view bytes, Read read) {
+        if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+        int number = 0;
+        for (std::size_t at = 0; at < bytes.size() && !stopped();) {
+            const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+            std::string_view line = bytes.substr(at, end - at);
+            if (line.ends_with('\r')) line.remove_suffix(1);
+            startLine(++number, line);
+            read(line);
+            at = end + 1;
+        }
+        return number;
+    }
 
 private:
     int number_ = 1;
