@@ -100,8 +100,8 @@ void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const 
     io_contacts.push_back(c);
 }
 
-/// A shape whose middle is in what does not move, where no surface that faces its own says so, is parted along the field's slope there, or if that leads
-/// into another solid, the shortest way.
+/// A shape whose middle is in what does not move, where no surface that faces its own says so, is parted along the field's slope
+/// there, or if that leads into another solid, the shortest way.
 void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const {
     if (!field_.contains(pose.position) || !holds(body, pose, pose.position)) return;
     Slope deepest;

@@ -29,12 +29,6 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     }
 }
 
-/// How far the bodies of a contact are to be moved apart in a part, m; below 0: how far they may come nearer.
-double PhysicsWorld::apartOf(const Contact& c) const {
-    const double deep = -c.gap - 0.5 * c.depth;
-    return deep > 0 ? knobs_.push_out * deep : deep;
-}
-
 void PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
     const double length = glm::length(by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(by.spin));
     if (!io_body.awake || !(length > 0)) return;
@@ -231,8 +225,9 @@ void PhysicsWorld::findKept() {
 /// Gravity's acceleration of every body.
 std::vector<Motion> PhysicsWorld::falling() const {
     std::vector<Motion> accelerations(bodies_.size());
+    const glm::dvec3 fall = world_.fall();
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].awake) accelerations[i].velocity = world_.fall();
+        if (bodies_[i].awake) accelerations[i].velocity = fall;
     return accelerations;
 }
 

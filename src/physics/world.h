@@ -185,7 +185,11 @@ private:
     double aimCrowd(Contact& io_c, const FlightRules& rules);
     void settleCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, const FlightRules& rules, std::span<Motion> io_accelerations);
     std::span<const int> membersOf(std::span<const Contact> contacts);
-    double apartOf(const Contact& c) const;
+    /// How far the bodies of a contact are to be moved apart in a part, m; below 0: how far they may come nearer.
+    double apartOf(const Contact& c) const {
+        const double deep = -c.gap - 0.5 * c.depth;
+        return deep > 0 ? knobs_.push_out * deep : deep;
+    }
     static void move(Body& io_body, const Motion& by, double h);
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
     void setTargets(std::span<Contact> contacts, double h) const;
