@@ -165,7 +165,7 @@ real sdPrism(vec3 p, real sides, real radius, real height, real apothem) {
     q = foldAcross(q, c1, s1, real(-1.0f));
 
     vec2 side = vec2(q.x - apothem, max(abs(q.y) - radius * s1, 0.0f));
-    real across = pick(side.x, side.x, length(side));
+    real across = pick(-side.x, length(side), side.x);  // on a side the root's slope would be lost
     return outside(vec2(across, abs(p.y) - 0.5f * height));
 }
 vec2 spanPrism(vec3 o, vec3 d, real sides, real radius, real height, real apothem) { return spanUpright(o, d, radius * wider(), height * (0.5f * wider())); }

@@ -59,6 +59,24 @@ glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double 
     return glm::normalize(turn * orientation);
 }
 
+double turningSpeedOfShape(const Body& body) {
+    if (body.spin == glm::dvec3{0}) return 0;
+    const glm::dvec3 spin = body.spin * glm::mat3_cast(body.orientation), momentum = body.inertia * spin;
+    const double energy = glm::dot(spin, momentum), size = glm::length(momentum);  // twice the energy
+    const Box& box = body.solid->box;
+    glm::dvec3 most, half;
+    double easiest = 0;  // no eigenvalue of the inverse inertia is greater (Gershgorin's circles)
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 row = glm::abs(body.inverse_inertia[k]);
+        easiest = std::fmax(easiest, row.x + row.y + row.z);
+        most[k] = std::fmin(std::sqrt(energy * row[k]), size * glm::length(row));
+        half[k] = std::fmax(std::fabs(box.lo[k]), std::fabs(box.hi[k]));
+    }
+    const double whole = std::fmin(std::sqrt(energy * easiest), size * easiest);
+    const glm::dvec3 speed{most.y * half.z + most.z * half.y, most.z * half.x + most.x * half.z, most.x * half.y + most.y * half.x};
+    return (1 + 1e-9) * std::fmin(glm::length(speed), body.radius * whole);
+}
+
 void turnFreely(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time) {
     if (io_spin == glm::dvec3{0}) return;
     if (body.isBall()) {

@@ -70,6 +70,13 @@ Pairing pairing(const World& world, const Body& a, const Body& b);
 /// Of bodies that say nothing.
 inline Pairing pairing(const World& world) { return {world.restitution, world.friction, world.rolling, world.spinning}; }
 
+/// No point of the body's surface, of those it shows to what it meets, is made faster than this by its turning, m/s, as long as it turns
+/// freely: angular momentum and energy, which it keeps, bound its spin about each axis of its frame, and its box how far a point lies from
+/// that. (A needle may spin fast about its length, and no other way.)
+double turningSpeedOfShape(const Body& body);
+/// A ball's is 0: none is faster than its centre.
+inline double turningSpeed(const Body& body) { return body.isBall() ? 0 : turningSpeedOfShape(body); }
+
 /// Turns an orientation by spin·time, with +, ·, ÷ and √ only, so that every compiler's result is the same to the bit.
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double time);
 

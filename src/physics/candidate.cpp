@@ -19,6 +19,7 @@ constexpr double kBeside = 0.01;            // of the spacing, or a round's radi
 constexpr double kLying = 2e-4;             // of a round's radius: less is off the surface where the round slopes by kSloping
 constexpr double kTurning = 0.6;            // by which a normal may leave the cone of the surface's own, of a point that is yet to move
 constexpr double kCone = 0.1;               // the same, of a contact
+constexpr double kStray = 1.0;              // of the spacing: how far from its place a point's cone says anything
 constexpr double kRounded = 0.25;           // the same, of a round: whether its surface is there is asked
 constexpr std::array kAcross{0.001, 0.1, 0.01, 0.001};  // of the spacing: how far to either side of an edge its faces are looked for
 
@@ -55,9 +56,14 @@ bool Settler::faces(const Candidate& c, double but) {
     return (c.of_a ? -facing : facing) >= c.from->cosine - but;
 }
 
-/// What moved along a curve may have left the cone of the point it came from.
+/// What moved along a curve may have left the cone of the point it came from, or got far from where that is its surface's; and what moved
+/// along an edge, by a field that is read further inside, may have left the other.
 bool Settler::isContact(const Candidate& c) const {
-    return c.gap <= margin_ && (faces(c, coneOf(c)) || glm::dot(c.own, c.of_a ? -c.normal : c.normal) >= 1 - kCone);
+    if (c.gap > margin_) return false;
+    const bool opposed = glm::dot(c.own, c.of_a ? -c.normal : c.normal) >= 1 - kCone;
+    const auto strayed = [&] { return c.own != glm::dvec3{0} && glm::length(c.at - c.owner->pose.toWorld(c.from->onSurface())) > kStray * c.spacing(); };
+    if (!opposed && (!faces(c, coneOf(c)) || strayed())) return false;
+    return c.inwards == 0 || fieldOf(*c.asked, c.at) <= margin_ + kBeside * c.fineness();
 }
 
 /// At the other's edges the field has no one slope, and deep inside or beside them it has the wrong one: of a box just on the rim of

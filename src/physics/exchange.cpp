@@ -57,7 +57,8 @@ Movable shapeOf(const Scene& shape, const Object& o) {
         if (!(box.lo[k] <= box.hi[k])) return m.why_not = "it is empty", m;
     if (!isFinite(box)) return m.why_not = "it is infinite", m;
     const MassProperties mass = massProperties(tree);
-    if (!(mass.volume > 0)) return m.why_not = "it is empty", m;
+    const double room = (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]);
+    if (!(mass.volume > 1e-10 * room)) return m.why_not = "it is empty", m;  // a shape less itself, but for rounding
     const double density = o.mass > 0 ? o.mass / mass.volume : o.density;
     m.mass = density * mass.volume, m.inertia = density * mass.inertia, m.centre = mass.centre;
     Scene centred = shape;

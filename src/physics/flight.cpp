@@ -105,14 +105,8 @@ double Flight::fastest(std::size_t i) const {
     if (paths_[i].held || !bodies_[i].awake) return 0;
     const Body& b = bodies_[i];
     const double left = rules_.duration - paths_[i].time;
-    // A shape that turns freely may come to turn faster, about the axis it is easiest to turn about.
-    double turning = 0;
-    if (!b.isBall()) {
-        double stiff = b.inertia[0][0], easy = b.inertia[0][0];
-        for (int k = 1; k < 3; ++k) stiff = std::max(stiff, b.inertia[k][k]), easy = std::min(easy, b.inertia[k][k]);
-        turning = b.radius * (glm::length(b.spin) * std::sqrt(stiff / easy) + left * glm::length(paths_[i].turning));
-    }
-    return glm::length(b.velocity) + left * glm::length(paths_[i].acceleration) + turning;
+    const double turned = b.isBall() ? 0 : b.radius * left * glm::length(paths_[i].turning);
+    return glm::length(b.velocity) + left * glm::length(paths_[i].acceleration) + turningSpeed(b) + turned;
 }
 
 glm::dvec3 Flight::velocityAt(std::size_t i, double t) const {
@@ -160,10 +154,16 @@ void Flight::expectStatic(std::size_t i) {
             if (touch.gap <= 0) g.rate = std::min(g.rate, glm::dot(touch.normal, v));
         return g;
     };
+    expect(firstMeeting(gap_at, from, to, limits), i, i);
+}
+
+/// What a search found: an impact, or that it gave up, and then those two wait where they are known to be free. j = i: what does not move.
+void Flight::expect(const Meeting& m, std::size_t i, std::size_t j) {
     ++counts_.searches;
-    const Meeting m = firstMeeting(gap_at, from, to, limits);
-    if (m.stuck) paths_[i].events = kEventsAPart;
-    if (m.found || m.stuck) events_.push({m.time, static_cast<int>(i), kStatic, paths_[i].version, 0});
+    if (!m.found && !m.stuck) return;
+    if (m.stuck) paths_[i].events = paths_[j].events = kEventsAPart;
+    const auto [a, b] = std::minmax(i, j);
+    events_.push({m.time, static_cast<int>(a), i == j ? kStatic : static_cast<int>(b), paths_[a].version, i == j ? 0 : paths_[b].version});
 }
 
 /// Whether it is proved that the search along the ball's path finds nothing: the ball creeps, or has room. The field is asked
@@ -203,11 +203,7 @@ void Flight::expectPair(std::size_t i, std::size_t j) {
         const double error = 1e-6 * gapError(bodies_[i].position, sum), gap = gap_at(from).gap;
         if (cannotReach(gap - error, to - from, limits, smaller) || restsThrough(to - from, limits, error)) return;
     }
-    ++counts_.searches;
-    const Meeting m = firstMeeting(gap_at, from, to, limits);
-    if (!m.found) return;
-    const auto [a, b] = std::minmax(i, j);
-    events_.push({m.time, static_cast<int>(a), static_cast<int>(b), paths_[a].version, paths_[b].version});
+    expect(firstMeeting(gap_at, from, to, limits), i, j);
 }
 
 /// The gap of a shape to what does not move (j = i), or of two bodies of which one is a shape.
@@ -252,10 +248,7 @@ void Flight::expectStaticOfShape(std::size_t i) {
     const double from = paths_[i].time, to = rules_.duration, speed = fastest(i), stride = kNear * b.inner;
     const ApproachLimits limits{speed, stride, rules_.bounce, depthOf(i, i), kShapeNoise};
     if (rules_.proofs && cannotReach(field_.room(positionAt(i, from), b.radius), to - from, limits, b.radius)) return;
-    ++counts_.searches;
-    const Meeting m = firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits);
-    if (m.stuck) paths_[i].events = kEventsAPart;
-    if (m.found || m.stuck) events_.push({m.time, static_cast<int>(i), kStatic, paths_[i].version, 0});
+    expect(firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits), i, i);
 }
 
 void Flight::expectPairOfShapes(std::size_t of_i, std::size_t of_j) {
@@ -267,10 +260,8 @@ void Flight::expectPairOfShapes(std::size_t of_i, std::size_t of_j) {
     const double room = glm::length(positionAt(i, from) - positionAt(j, from)) - x.radius - y.radius;
     ++counts_.body_gaps;
     if (rules_.proofs && cannotReach(room - 1e-9 * (x.radius + y.radius), to - from, limits, inner)) return;
-    ++counts_.searches;
     const std::size_t first = i, second = j;
-    const Meeting m = firstMeeting([&](double t) { return shapeGap(first, second, t, limits.stride); }, from, to, limits);
-    if (m.found) events_.push({m.time, static_cast<int>(i), static_cast<int>(j), paths_[i].version, paths_[j].version});
+    expect(firstMeeting([&](double t) { return shapeGap(first, second, t, limits.stride); }, from, to, limits), i, j);
 }
 
 void Flight::expectAll(std::size_t i) {

@@ -26,9 +26,6 @@ struct FlightRules {
     bool proofs = true;       // a search that is proved to find nothing is not made
 };
 
-/// How fast its turning makes a point of the body's surface, of those it shows to what it meets, m/s. A ball's is 0: none is
-/// faster than its centre.
-inline double turningSpeed(const Body& b) { return b.isBall() ? 0 : b.radius * glm::length(b.spin); }
 /// How far a point of the body may get in a part, m; and one of a against one of b.
 inline double travelOf(const Body& body, const FlightRules& rules) {
     const double h = rules.duration;
@@ -67,7 +64,7 @@ public:
     void run();
 
     int impacts = 0;
-    std::vector<int> held;    // bodies that met more than fits into one part: they wait for the next where they are
+    std::vector<int> held;    // bodies that met more than fits into one part, or whose path is not known: they wait for the next where they are
 
 private:
     struct Path {
@@ -98,6 +95,7 @@ private:
     GapAt shapeGap(std::size_t i, std::size_t j, double t, double margin);
     glm::dvec3 velocityAt(std::size_t i, double t) const;
     void advance(std::size_t i, double t);
+    void expect(const Meeting& meeting, std::size_t i, std::size_t j);
     void expectStatic(std::size_t i);
     void expectStaticOfShape(std::size_t i);
     bool noStaticAhead(std::size_t i, double duration, const ApproachLimits& limits);

@@ -1,7 +1,8 @@
 #include "physics/surface.h"
 
+#include "physics/planes.h"
+
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -9,98 +10,21 @@
 namespace mb {
 namespace {
 
-constexpr int kCells = 10;        // along the longest side of the box
+constexpr int kCells = 11;        // along the longest side of the box; odd, as the others: no symmetric shape's middle lies between two
 constexpr int kFewest = 3;        // along the shortest
 constexpr double kGrown = 0.37;   // of a cell, that the grid begins outside the box: no face lies between two cells
 constexpr double kSharp = 0.99;   // of a cone's cosine: less is an edge or a corner
 constexpr double kNearlyFlat = 0.99;  // the same, of a cell that may see no more than the beginning of a round
+constexpr double kOpposite = -0.6;    // the same: two sides of a wall. (Not -0.5, that of a triangle's corner)
+constexpr std::size_t kSure = 3;  // planes in a cell, that tell whether it is flat
+constexpr double kAlike = 0.9;    // of two unit normals' product: one point's
+// Of half a cell: how far from its middle its planes may lie. An edge between two cells needs more, a fine round less.
+constexpr std::array kReaches{1.3, 2.0};
 constexpr std::uint32_t kLeafPoints = 4;
 
-/// A plane that touches the surface.
-struct Plane {
-    glm::dvec3 point{0}, normal{0};
-};
-
-/// The squares of a box's sides, as shares of its longest.
-glm::dvec3 stretchOf(glm::dvec3 sides) {
-    const glm::dvec3 share = sides / std::max({sides.x, sides.y, sides.z});
-    return share * share;
-}
-
-/// The surface's plane next to p, if Newton's steps reach the surface within `reach`: steps along the gradient of a frame in which that
-/// is a cube, so that of a needle the side is found from beside it and the tip from above.
-std::optional<Plane> planeNear(const Tree& tree, glm::dvec3 p, glm::dvec3 centre, glm::dvec3 reach, double on) {
-    const glm::dvec3 stretch = stretchOf(reach);
-    for (int i = 0; i < 8; ++i) {
-        const Slope s = slope(tree, p);
-        const double l2 = glm::dot(s.gradient, s.gradient);
-        if (!(l2 > 1e-6)) return std::nullopt;
-        if (std::fabs(s.distance) <= on) return Plane{p, s.gradient / std::sqrt(l2)};
-        const glm::dvec3 way = stretch * s.gradient;
-        p -= (s.distance / glm::dot(way, s.gradient)) * way;
-        const glm::dvec3 off = glm::abs(p - centre);
-        if (off.x > reach.x || off.y > reach.y || off.z > reach.z) return std::nullopt;
-    }
-    return std::nullopt;
-}
-
-/// Where the planes meet, or of the points where they nearly do the one next to the mean of theirs: least squares, drawn to the
-/// mean a little, the mean then moved there.
-glm::dvec3 meetingPoint(std::span<const Plane> planes, double drawn = 1e-5) {
-    glm::dvec3 at{0};
-    glm::dmat3 normal{0};
-    for (const Plane& p : planes) at += p.point / static_cast<double>(planes.size()), normal += glm::outerProduct(p.normal, p.normal);
-    const double draw = drawn * static_cast<double>(planes.size());
-    for (int i = 0; i < 3; ++i) normal[i][i] += draw;
-    const glm::dmat3 inverse = glm::inverse(normal);
-    for (int round = 0; round < 4; ++round) {
-        glm::dvec3 off{0};
-        for (const Plane& p : planes) off += glm::dot(p.normal, p.point - at) * p.normal;
-        at += inverse * off;
-    }
-    return at;
-}
-
-/// A ball that touches planes from within.
-struct Round {
-    glm::dvec3 middle{0};
-    double radius = 0;
-};
-
-/// The one that touches all of them as nearly as it can: n·(p − middle) = radius by least squares, as in meetingPoint(). Along a
-/// rounded edge it is the one next to the mean of the points.
-Round roundWithin(std::span<const Plane> planes) {
-    glm::dvec3 mean{0};
-    glm::dmat4 normal{0};
-    for (const Plane& p : planes) {
-        const glm::dvec4 row{p.normal, 1};
-        mean += p.point / static_cast<double>(planes.size()), normal += glm::outerProduct(row, row);
-    }
-    const double draw = 1e-7 * static_cast<double>(planes.size());
-    for (int i = 0; i < 4; ++i) normal[i][i] += draw;
-    const glm::dmat4 inverse = glm::inverse(normal);
-    glm::dvec4 found{0};
-    for (int round = 0; round < 6; ++round) {
-        glm::dvec4 off{0};
-        for (const Plane& p : planes) {
-            const glm::dvec4 row{p.normal, 1};
-            off += (glm::dot(p.normal, p.point - mean) - glm::dot(row, found)) * row;
-        }
-        found += inverse * off;
-    }
-    return {mean + glm::dvec3{found}, found.w};
-}
-
-/// A narrow cone that holds the planes' normals: its middle goes ever less far towards the one that is farthest from it
-/// (Bădoiu, Clarkson, "Smaller Core-Sets for Balls", 2003).
 void setCone(std::span<const Plane> planes, SurfacePoint& out) {
-    const auto farthest = [&] { return std::ranges::min_element(planes, {}, [&](const Plane& p) { return glm::dot(p.normal, out.normal); })->normal; };
-    out.normal = planes[0].normal;
-    for (int i = 1; i <= 40; ++i) {
-        const glm::dvec3 middle = out.normal + (farthest() - out.normal) / (i + 1.0);
-        if (glm::dot(middle, middle) > 1e-6) out.normal = glm::normalize(middle);
-    }
-    out.cosine = glm::dot(farthest(), out.normal);
+    const NormalCone cone = coneOf(planes);
+    out.normal = cone.normal, out.cosine = cone.cosine;
 }
 
 /// The points of one cell.
@@ -109,24 +33,70 @@ public:
     Cell(const Tree& tree, glm::dvec3 centre, glm::dvec3 half, double size) : tree_(tree), centre_(centre), half_(half), on_(1e-10 * size) {}
 
     void addTo(std::vector<SurfacePoint>& out) const {
-        const std::vector<Plane> all = planes(centre_, 1);
-        std::vector<Plane> front, back;
-        for (const Plane& plane : all) {
-            const bool behind = !front.empty() && glm::dot(plane.normal, front[0].normal) < -0.5;
-            (behind ? back : front).push_back(plane);
-        }
-        if (!back.empty() && addTip(all, out)) return;
-        addSide(front, out), addSide(back, out);  // of a thin wall
+        for (const double reach : kReaches) addTo(out, planes(centre_, 1, reach));
+    }
+
+    /// The deepest place behind the surface here: of a wall thinner than a cell about its middle.
+    void deepen(Depth& io_deepest) const {
+        for (const Plane& plane : planes(centre_, 1))
+            for (double in = 2 * glm::length(half_); in > 1e-6 * glm::length(half_); in *= 0.7) io_deepest.tryAt(tree_, plane.point - in * plane.normal);
     }
 
 private:
-    /// The surface's planes around a place, as far as that many halves of the cell.
-    std::vector<Plane> planes(glm::dvec3 around, double halves) const {
+    void addTo(std::vector<SurfacePoint>& out, const std::vector<Plane>& all) const {
+        // Of a thin wall two sides; what lies across both, as its end does, is of either.
+        std::vector<Plane> front, back;
+        const auto opposite = [](const Plane& p, const Plane& q) { return glm::dot(p.normal, q.normal) < kOpposite; };
+        for (const Plane& plane : all) (opposite(plane, all[0]) ? back : front).push_back(plane);
+        if (!back.empty()) {
+            addTip(all, out);
+            const Plane behind = back[0];
+            std::ranges::copy_if(front, std::back_inserter(back), [&](const Plane& p) { return !opposite(p, behind); });
+        }
+        addSide(front, out), addSide(back, out);
+    }
+
+    /// Adds a point that is not there yet, from another cell's or another reach's planes.
+    void add(const SurfacePoint& point, std::vector<SurfacePoint>& out) const {
+        const double same = 1e-3 * glm::length(half_);
+        const auto is_it = [&](const SurfacePoint& p) {
+            return glm::length(p.place - point.place) < same && std::fabs(p.round - point.round) < same && glm::dot(p.normal, point.normal) > kAlike &&
+                   p.cosine <= point.cosine + 0.05;
+        };
+        if (std::ranges::any_of(out, is_it)) return;
+        out.push_back(point);
+        if (point.along != glm::dvec3{0})
+            for (const double way : {1.0, -1.0}) addEnd(point, way * point.along, out);
+    }
+
+    /// Where a straight edge ends nearby there is a corner, of which its cell may see but two faces. (A bent edge leaves its tangent at once.)
+    void addEnd(const SurfacePoint& edge, glm::dvec3 way, std::vector<SurfacePoint>& out) const {
+        constexpr double kStraight = 0.01;  // of half a cell's diagonal
+        const double length = 2 * glm::length(half_);
+        if (isOn(edge.place + length * way)) return;
+        double on = 0, off = length;
+        while (off - on > 1e-9 * length) {
+            const double middle = 0.5 * (on + off);
+            (isOn(edge.place + middle * way) ? on : off) = middle;
+        }
+        if (on < kStraight * length) return;
+        SurfacePoint end;
+        end.place = edge.place + on * way, end.sharp = true;
+        std::vector<Plane> around = planes(end.place, kStraight);
+        std::erase_if(around, [&](const Plane& p) { return !(std::fabs(glm::dot(p.normal, end.place - p.point)) <= 1e-3 * kStraight * length); });
+        if (around.size() < 3) return;
+        if (const glm::dvec3 meet = meetingPoint(around); isMeeting(around, meet)) end.place = meet;  // to the last digits
+        setCone(around, end);
+        if (end.cosine < edge.cosine) add(end, out);
+    }
+
+    /// The surface's planes around a place, as far as `reach` times that many halves of the cell.
+    std::vector<Plane> planes(glm::dvec3 around, double halves, double reach = kReaches[0]) const {
         std::vector<Plane> found;
         for (int k = 0; k < 9; ++k) {
             const glm::dvec3 corner{k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1};
-            const glm::dvec3 from = k < 8 ? around + (0.9 * halves) * corner * half_ : around;
-            if (const auto plane = planeNear(tree_, from, around, (1.1 * halves) * half_, on_)) found.push_back(*plane);
+            const glm::dvec3 from = k < 8 ? around + (1.1 * halves) * corner * half_ : around;
+            if (const auto plane = planeNear(tree_, from, around, (reach * halves) * half_, on_)) found.push_back(*plane);
         }
         return found;
     }
@@ -144,15 +114,21 @@ private:
         return most > 1000 * on_;
     }
 
+    /// Whether a place is on the surface, and on each of the planes: those of a thin wall and of its end have no such place.
+    bool isMeeting(std::span<const Plane> planes, glm::dvec3 place) const {
+        const auto holds = [&](const Plane& p) { return std::fabs(glm::dot(p.normal, place - p.point)) <= 1000 * on_; };
+        return isOn(place) && std::ranges::all_of(planes, holds);
+    }
+
     /// Sets the point to where the planes meet, if the surface does: at once where they are flat; of a bent edge, as of a hole's
     /// rim, the planes ever nearer to it meet ever nearer to it.
     bool setMeeting(std::span<const Plane> planes, SurfacePoint& io_point) const {
         std::vector<Plane> near(planes.begin(), planes.end());
         glm::dvec3 meet = meetingPoint(near);
-        if (!isOn(meet) || !isWithin(meet)) {
+        if (!isMeeting(near, meet)) {
             if (io_point.cosine >= kSharp) return false;
             meet = meetingPoint(near, 0.1);
-            for (double halves = 0.5; !isOn(meet); halves *= 0.5) {
+            for (double halves = 0.5; !isMeeting(near, meet); halves *= 0.5) {
                 near = this->planes(meet, halves);
                 if (halves < 1e-8 || near.size() < 2) return false;
                 meet = meetingPoint(near, 0.1 * halves * halves);
@@ -167,15 +143,11 @@ private:
         return true;
     }
 
-    /// A needle's tip or a blade's edge, where all the planes meet.
-    bool addTip(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
+    /// A needle's tip or a blade's edge, where all the planes of both sides meet.
+    void addTip(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
         SurfacePoint tip;
-        tip.place = meetingPoint(planes), tip.sharp = true;
-        if (!isOn(tip.place) || !isWithin(tip.place) || isHollow(planes)) return false;
         setCone(planes, tip);
-        tip.along = edgeOf(planes);
-        out.push_back(tip);
-        return true;
+        if (!isHollow(planes) && setMeeting(planes, tip) && isWithin(tip.place)) add(tip, out);
     }
 
     /// The direction of the edge where the planes meet; 0: they meet in a corner.
@@ -192,12 +164,21 @@ private:
         return along;
     }
 
-    void addSide(std::span<const Plane> planes, std::vector<SurfacePoint>& out) const {
+    void addSide(std::vector<Plane> planes, std::vector<SurfacePoint>& out) const {
         if (planes.empty() || isHollow(planes)) return;
         SurfacePoint found;
         setCone(planes, found);
-        if (found.cosine > 1 - 1e-9) return;  // flat
-        if (setMeeting(planes, found) && isWithin(found.place)) return out.push_back(found);
+        if (isFlat(found)) return;
+        const bool meet = setMeeting(planes, found);
+        if (meet && isWithin(found.place)) return add(found, out);
+        // What is bent may be another cell's; what lies in this one may be curved all the same.
+        std::vector<Plane> own;
+        std::ranges::copy_if(planes, std::back_inserter(own), [&](const Plane& p) { return isWithin(p.point); });
+        if (own.empty()) return;
+        SurfacePoint of_own;
+        setCone(own, of_own);
+        if (isFlat(of_own) && (meet || own.size() >= kSure)) return;
+        if (meet) planes = own, found = of_own;
         // Of a curve, the point nearest to the middle of those found, if it is this cell's.
         glm::dvec3 middle{0};
         for (const Plane& p : planes) middle += p.point / static_cast<double>(planes.size());
@@ -208,14 +189,21 @@ private:
         all.push_back(*plane);
         if (const auto round = roundOf(all, found.normal); round && isWithin(round->middle + round->radius * found.normal))
             found.place = round->middle, found.round = round->radius;
-        else if (found.cosine > kNearlyFlat && belongsToNeighbour(planes)) return;
-        out.push_back(found);
+        else if (found.cosine > kNearlyFlat && (isMostlyFlat(planes) || belongsToNeighbour(planes))) return;
+        add(found, out);
     }
 
+    /// Whether kSure of the planes are parallel: a flat face, and the beginning of its rim.
+    static bool isMostlyFlat(std::span<const Plane> planes) {
+        return std::ranges::any_of(planes, [&](const Plane& p) {
+            return std::ranges::count_if(planes, [&](const Plane& q) { return glm::dot(p.normal, q.normal) > 1 - 1e-9; }) >= static_cast<int>(kSure);
+        });
+    }
+    static bool isFlat(const SurfacePoint& p) { return p.cosine > 1 - 1e-9; }
     bool isOn(glm::dvec3 p) const { return std::fabs(distance<double>(tree_, {p.x, p.y, p.z})) <= 10 * on_; }
     bool isWithin(glm::dvec3 p) const {
-        const glm::dvec3 off = glm::abs(p - centre_);
-        return off.x <= half_.x && off.y <= half_.y && off.z <= half_.z;
+        const glm::dvec3 off = glm::abs(p - centre_), most = (1 + 1e-6) * half_;  // what lies between two cells is of both
+        return off.x <= most.x && off.y <= most.y && off.z <= most.z;
     }
 
     /// Whether what is curved a little here is the beginning of a round whose middle another cell has.
@@ -279,20 +267,25 @@ SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner)
     glm::ivec3 cells;
     glm::dvec3 cell;
     for (int i = 0; i < 3; ++i) {
-        cells[i] = std::max(kFewest, static_cast<int>(std::ceil(kCells * size[i] / longest)));
+        cells[i] = std::max(kFewest, static_cast<int>(std::ceil(kCells * size[i] / longest))) | 1;
         cell[i] = std::max(size[i], 1e-6 * longest) / (cells[i] - 2 * kGrown);
     }
     std::vector<SurfacePoint> points;
     const glm::dvec3 half = 0.5 * cell;
     const double reach = glm::length(half);
+    Depth deepest;
     for (int z = 0; z < cells.z; ++z)
         for (int y = 0; y < cells.y; ++y)
             for (int x = 0; x < cells.x; ++x) {
                 const glm::dvec3 centre = lo + (glm::dvec3{x, y, z} + 0.5 - kGrown) * cell;
                 const double f = distance<double>(tree, {centre.x, centre.y, centre.z});
-                out_inner = std::max(out_inner, -f);
-                if (std::fabs(f) <= reach) Cell(tree, centre, half, longest).addTo(points);
+                if (-f > deepest.depth) deepest = {centre, -f};
+                if (std::fabs(f) > reach) continue;
+                const Cell within(tree, centre, half, longest);
+                within.addTo(points), within.deepen(deepest);
             }
+    deepest.climb(tree, half);
+    out_inner = deepest.depth;
     return SurfacePoints(std::move(points), 2 * reach, stretchOf(cell));
 }
 

@@ -66,7 +66,7 @@ private:
 
 /// The points of a bounded shape, by a grid of cells over its box: in each cell that the surface crosses, the planes that touch
 /// it nearby meet in a corner or on an edge if there is one (Ju, Losasso, Schaefer, Warren, "Dual Contouring of Hermite Data",
-/// 2002). A wall thinner than a cell gets the points of both its sides. `out_inner`: how deep the deepest cell's centre lies
+/// 2002). A wall thinner than a cell gets the points of both its sides. `out_inner`: how deep the deepest place lies
 /// inside, m.
 SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner);
 

@@ -26,8 +26,8 @@ void PhysicsWorld::noteWaysOut() {
     const auto name = [&](int i) { return bodies_[static_cast<std::size_t>(i)].name; };
     for (const Contact& c : scratch_.found)
         if (c.way_out)
-            note(fmt::format("{}: so deep in {} that no surface of theirs faces the other's; moved out a straight way", name(c.a),
-                             c.b == kStatic ? "what does not move" : name(c.b)));
+            note(fmt::format("{}: so deep in {} that no surface of theirs faces the other's; moved out a straight way, at {} m/s at most", name(c.a),
+                             c.b == kStatic ? "what does not move" : name(c.b), kPushOutSpeed));
 }
 
 /// Appends what is found of the first `count` things, in their order, whichever thread finds it: find(i, io_found) adds what there is

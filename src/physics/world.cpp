@@ -119,7 +119,7 @@ void PhysicsWorld::fly(std::span<const Motion> accelerations, double h) {
     impacts_ += static_cast<std::uint64_t>(flight.impacts);
     held_ += flight.held.size();
     for (const int i : flight.held)
-        note(fmt::format("{}: met more within a step than is followed, and waited for the next", bodies_[static_cast<std::size_t>(i)].name));
+        note(fmt::format("{}: could not be followed to the end of a step, and waited there", bodies_[static_cast<std::size_t>(i)].name));
 }
 
 /// Takes out bodies that are nowhere, freezes those whose motion is no number, and slows down those beyond the top speed, before any

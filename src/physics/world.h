@@ -60,7 +60,7 @@ public:
 
     std::span<const Body> bodies() const { return bodies_; }
     int awake() const;
-    int contacts() const { return contacts_; }                 // that balls rested on in the last part
+    int contacts() const { return contacts_; }                 // that carried something in the last part
     int removed() const { return removed_; }                   // out of bounds, or nowhere from the start
     /// Those whose state became no number: they stay where they last were, are met by nothing, and are named in notes().
     std::span<const Body> frozen() const { return frozen_; }

@@ -103,6 +103,69 @@ TEST_CASE("case 66: a capsule that tumbles down a ball is not held in the air") 
     CHECK(w.bodies()[0].position.y < -1);
 }
 
+TEST_CASE("case 67: a prism, a lens on its rim, a turned box and a tube rest on the floor and do not sink in") {
+    // How high the middle of each is above the floor, lying so.
+    struct Drop {
+        std::string_view what;
+        double height;
+    };
+    for (const Drop& drop : {Drop{"prism", 0.4 * std::sqrt(0.5)}, {"triangle", 0.2}, {"lens", std::sqrt(1 - 0.81)}, {"turned box", 0.175 * std::sqrt(2.0)}, {"tube", 0.1}}) {
+        Scene s = scene(1.0 / 120, 0.3, 0.4);
+        floor(s);
+        const int own = static_cast<int>(s.objects.size());
+        Object* body = nullptr;
+        if (drop.what == "prism") body = &add(s, "prism", {}, {4, 0.4, 0.4}), body->rot.z = 90;
+        if (drop.what == "triangle") body = &add(s, "prism", {}, {3, 0.4, 0.4}), body->rot.z = -90;
+        if (drop.what == "lens") {
+            add(s, "intersect", {}, {0});
+            for (const double x : {-0.9, 0.9}) add(s, "sphere", {x, 0, 0}, {1}, own);
+        }
+        if (drop.what == "turned box") add(s, "union", {}, {0}).rot.z = -90, add(s, "box", {}, {0.35, 0.35, 0.35, 0}, own).rot.y = 45;
+        if (drop.what == "tube") {
+            add(s, "subtract", {}, {0}).rot.z = 90;
+            add(s, "cylinder", {}, {0.1, 1, 0}, own), add(s, "cylinder", {}, {0.09, 1.2, 0}, own);
+        }
+        s.objects[static_cast<std::size_t>(own)].pos.y = drop.height + 0.3, s.objects[static_cast<std::size_t>(own)].density = 800;
+        PhysicsWorld w(s);
+        run(w, 4);
+        MESSAGE(drop.what, ": ", w.bodies()[0].position.y - drop.height, " m too high, held ", w.held(), " times");
+        CHECK(std::fabs(w.bodies()[0].position.y - drop.height) <= 1e-3);
+        CHECK(w.held() == 0);
+        CHECK(w.notes().empty());
+    }
+}
+
+TEST_CASE("case 65: a thin needle that spins goes through no thin sheet, be it fixed or a body") {
+    for (const bool moves : {false, true})
+        for (const double speed : {10.0, 300.0}) {
+            Scene s = scene(1.0 / 120, 0.3, 0.4, 0);
+            add(s, "box", {2, 0, 0}, {0.001, 4, 4, 0}).mass = moves ? 1e6 : 0;
+            Object& needle = add(s, "capsule", {}, {0.003, 0.6});
+            needle.mass = 0.1, needle.vel.x = speed, needle.rot = {0, 0, 40}, needle.spin = {30, 20, 80};
+            PhysicsWorld w(s);
+            double furthest = 0;
+            const std::size_t at = w.bodies().size() - 1;
+            while (w.time_s() < 0.3) w.step(), furthest = std::max(furthest, w.bodies()[at].position.x);
+            MESSAGE(std::string_view(moves ? "a body" : "fixed"), ", ", speed, " m/s: at most ", furthest, " m, held ", w.held(), " times");
+            CHECK(furthest > 1);
+            CHECK(furthest < 2);
+        }
+}
+
+TEST_CASE("case 72: a stick of a metre takes no long steps, however thin it is") {
+    for (const double thick : {0.004, 0.02}) {
+        Scene s = scene(1.0 / 120, 0.3, 0.4);
+        floor(s);
+        block(s, {0, 0.8, 0}, {thick, 1, thick}, 700).rot = {3, 0, 4};
+        PhysicsWorld w(s);
+        run(w, 3);
+        MESSAGE(thick, " m: ", w.counts().evaluations, " evaluations in 3 s, held ", w.held(), " times, at ", w.bodies()[0].position.y, " m");
+        CHECK(w.counts().evaluations < 10'000'000);  // once 1e9
+        CHECK(std::fabs(w.bodies()[0].position.y - 0.5 * thick) < 1e-3 * thick);
+        CHECK(w.held() == 0);
+    }
+}
+
 TEST_CASE("case 69: a box slides down a ramp with g (sin θ - μ cos θ)") {
     double worst = 0;
     for (const double degrees : {10.0, 20.0, 30.0, 40.0, 50.0, 60.0})

@@ -143,6 +143,25 @@ TEST_CASE("of thin shapes in any position the lowest place over a floor is found
     }
 }
 
+TEST_CASE("a wall thinner than a cell has the points of its four edges along each side") {
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "box", {0, 0.8, 0}, {4.2, 2, 4.2, 0}, 0);
+    add(s, "box", {0, 1, 0}, {3.8, 2, 3.8, 0}, 0);
+    const Solid tray = makeSolid(makeTree(s), true);
+    for (const double edge : {-2.1, -1.9, 1.9, 2.1})
+        for (const int along : {0, 2}) {
+            int points = 0;
+            for (const SurfacePoint& p : tray.points.points()) {
+                const bool there = std::fabs(p.place[2 - along] - edge) < 1e-6 && std::fabs(p.place.y - 1.8) < 1e-6;
+                points += there && p.sharp && std::fabs(p.along[along]) > 0.999;
+            }
+            CAPTURE(edge);
+            CAPTURE(along);
+            CHECK(points >= 7);  // a cell is 0.41 m, the edge 3.8 or 4.2; the corners have the ends
+        }
+}
+
 TEST_CASE("a corner in a pip touches its rim where it is deepest") {
     // The rim is a circle, and the rounded box is convex with an exact distance: its least value on the circle is the depth.
     constexpr double kHalf = 0.25, kPip = 0.05;
