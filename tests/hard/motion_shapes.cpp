@@ -152,6 +152,19 @@ TEST_CASE("case 65: a thin needle that spins goes through no thin sheet, be it f
         }
 }
 
+TEST_CASE("case 72: a small shape on a ten thousand times larger one is met in few questions to the field") {
+    for (const std::string_view kind : {"capsule", "box"})
+        for (const double size : {1e-3, 1e-6}) {
+            Scene s = scene(1.0 / 120, 0.5, 0.5);
+            floor(s);
+            bodyOf(s, kind, {0, 2 * size, 0}, size), bodyOf(s, kind, {0, 4 * size, 0}, 1e-4 * size);
+            PhysicsWorld w(s);
+            run(w, 3.0 / 120);
+            MESSAGE(kind, " of ", size, " m: ", w.counts().evaluations, " evaluations in 3 steps");
+            CHECK(w.counts().evaluations < 1'000'000);  // once 1e9
+        }
+}
+
 TEST_CASE("case 72: a stick of a metre takes no long steps, however thin it is") {
     for (const double thick : {0.004, 0.02}) {
         Scene s = scene(1.0 / 120, 0.3, 0.4);

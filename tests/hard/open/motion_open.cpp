@@ -21,19 +21,6 @@ TEST_CASE("case 60, open: two small boxes carry one of a million times their mas
     }
 }
 
-TEST_CASE("case 72, open: a step of a small shape on a ten thousand times larger one takes no second") {
-    for (const std::string_view kind : {"capsule", "box"})
-        for (const double size : {1e-3, 1e-6}) {
-            Scene s = scene(1.0 / 120, 0.5, 0.5);
-            floor(s);
-            bodyOf(s, kind, {0, 2 * size, 0}, size), bodyOf(s, kind, {0, 4 * size, 0}, 1e-4 * size);
-            PhysicsWorld w(s);
-            const double seconds = secondsFor(w, 3);
-            MESSAGE(kind, " of ", size, " m: ", seconds, " s for 3 steps");
-            CHECK(seconds <= 1);
-        }
-}
-
 TEST_CASE("case 79, open: a cube on a ball or a ridge gains no energy") {
     for (const double x : {0.0, 5.0}) {
         Scene s = scene(1.0 / 120, 0.5, 0.5);
@@ -51,4 +38,17 @@ TEST_CASE("case 79, open: a cube on a ball or a ridge gains no energy") {
         MESSAGE((x == 0 ? std::string_view("ball") : std::string_view("ridge")), ": energy up by ", most, " in a step");
         CHECK(most <= 1e-9);
     }
+}
+
+TEST_CASE("case 64, open: a hollow ball that lies wholly in a solid comes out") {
+    Scene s = scene(1.0 / 120, 0.3, 0.4);
+    floor(s);
+    add(s, "box", {0, 0.5, 0}, {2, 1, 2, 0});
+    add(s, "shell", {0.2, 0.4, 0.1}, {0.01}).density = 800;
+    add(s, "sphere", {}, {0.3}, 2);
+    PhysicsWorld w(s);
+    run(w, 8);
+    const glm::dvec3 at = w.bodies()[0].position;
+    MESSAGE("at ", at.x, " ", at.y, " ", at.z, ", seen to be ", w.maxPenetration(), " m deep");
+    CHECK((std::max(std::fabs(at.x), std::fabs(at.z)) >= 1.299 || at.y >= 1.299));
 }
