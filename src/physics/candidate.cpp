@@ -13,6 +13,7 @@ constexpr double kAlike = 0.97;             // of two unit normals' product: the
 constexpr std::array kInwards{0.02, 0.08, 0.3, 0.8, 2.0};  // of the spacing: how far inside a sharp point its partner's face is read
 constexpr double kLevel = 1e-4;             // a slope that is none
 constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made
+constexpr int kMoves = 24;                  // along a surface to where it is lowest
 constexpr int kDrops = 4;                   // steps from beside a surface onto it
 constexpr double kSloping = 0.02;           // a slope that may be a flat face's
 constexpr double kBeside = 0.01;            // of the spacing, or a round's radius
@@ -210,7 +211,7 @@ void Settler::refine(Candidate& io_c, Until until, double most) const {
     const double longest = 0.25 * io_c.spacing();
     double stride = longest;
     if (io_c.isCorner() || there.distance - down.slope * io_c.spacing() > most) return;
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < kMoves; ++i) {
         if (down.slope < kLevel || down.steep * stride < kWorth * io_c.spacing()) break;
         Candidate next = io_c;
         Footing next_footing = footing;

@@ -274,6 +274,7 @@ SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner)
     const glm::dvec3 half = 0.5 * cell;
     const double reach = glm::length(half);
     Depth deepest;
+    std::vector<Cell> crossed;
     for (int z = 0; z < cells.z; ++z)
         for (int y = 0; y < cells.y; ++y)
             for (int x = 0; x < cells.x; ++x) {
@@ -281,9 +282,10 @@ SurfacePoints surfacePoints(const Tree& tree, const Box& box, double& out_inner)
                 const double f = distance<double>(tree, {centre.x, centre.y, centre.z});
                 if (-f > deepest.depth) deepest = {centre, -f};
                 if (std::fabs(f) > reach) continue;
-                const Cell within(tree, centre, half, longest);
-                within.addTo(points), within.deepen(deepest);
+                crossed.emplace_back(tree, centre, half, longest).addTo(points);
             }
+    if (deepest.depth < reach)  // all of it is thinner than a cell
+        for (const Cell& c : crossed) c.deepen(deepest);
     deepest.climb(tree, half);
     out_inner = deepest.depth;
     return SurfacePoints(std::move(points), 2 * reach, stretchOf(cell));

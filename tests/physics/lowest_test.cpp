@@ -94,6 +94,7 @@ constexpr Shape kShapes[] = {
     {"shell", "object type:shell thickness:0.01\n  object type:sphere radius:0.3"},
     {"tube, 10 mm", "object type:subtract\n  object type:cylinder radius:0.1 height:1\n  object type:cylinder radius:0.09 height:2", 5},
     {"tube, 2 mm", "object type:subtract\n  object type:cylinder radius:0.1 height:1\n  object type:cylinder radius:0.098 height:2", 30},
+    {"waves", "object type:displace amplitude:0.03 frequency:20\n  object type:sphere radius:0.35", 65},
 };
 
 }  // namespace
