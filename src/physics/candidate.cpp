@@ -9,7 +9,6 @@
 namespace mb {
 namespace {
 
-constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr std::array kInwards{0.02, 0.08, 0.3, 0.8, 2.0};  // of the spacing: how far inside a sharp point its partner's face is read
 constexpr double kLevel = 1e-4;             // a slope that is none
 constexpr double kWorth = 1e-5;             // of the spacing: a step that brings less is not made

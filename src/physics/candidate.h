@@ -6,6 +6,8 @@
 
 namespace mb {
 
+inline constexpr double kAlike = 0.97;  // of two unit normals' product: the same face
+
 /// A surface point of one solid near the other.
 struct Candidate {
     glm::dvec3 at{0};                       // on its owner's surface or, of a round, in its middle until it is settled; in the world

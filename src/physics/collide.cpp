@@ -31,7 +31,7 @@ void Collider::withStatics(int i, const Body& body, const Pose& pose, double mar
         addPoints(i, body, pose, kStatic, nullptr, {}, margin, find, io_contacts);
         const auto found = std::span(io_contacts).subspan(before);
         if (std::ranges::any_of(found, [&](const Contact& c) { return isDeep(c, body); })) leaveBlocked(i, body, pose, before, io_contacts);
-        else addWayOut(i, body, pose, io_contacts);  // it may lie on a floor, in a box that stands there
+        else leaveBuried(i, body, pose, io_contacts);  // it may lie on a floor, in a box that stands there
     }
     counts_.static_contacts += io_contacts.size() - before;
 }
@@ -62,7 +62,7 @@ void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Bo
             return manifold({a.solid.get(), pose_a, 0}, {&other, 1}, within, io_evaluations);
         };
         addPoints(i, a, pose_a, j, &b, pose_b, margin, find, io_contacts);
-        if (io_contacts.size() == before) addWayOut(i, a, pose_a, j, b, pose_b, io_contacts);
+        if (io_contacts.size() == before) part(i, a, pose_a, j, b, pose_b, io_contacts);
     }
     counts_.body_contacts += io_contacts.size() - before;
 }
@@ -89,7 +89,7 @@ bool Collider::holds(const Body& body, const Pose& pose, glm::dvec3 place) const
 
 /// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres, if one of these or the
 /// middle between them is in both.
-void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
+void Collider::part(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
     if (!(deep > 0)) return;
     const auto in_both = [&](glm::dvec3 place) { return holds(a, pose_a, place) && holds(b, pose_b, place); };
@@ -102,7 +102,7 @@ void Collider::addWayOut(int i, const Body& a, const Pose& pose_a, int j, const 
 
 /// A shape whose middle is in what does not move, where no surface that faces its own says so, is parted along the field's slope
 /// there, or if that leads into another solid, the shortest way.
-void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const {
+void Collider::leaveBuried(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const {
     if (!field_.contains(pose.position) || !holds(body, pose, pose.position)) return;
     Slope deepest;
     field_.eachNear(pose.position, body.radius, [&](std::size_t s) {
@@ -111,9 +111,8 @@ void Collider::addWayOut(int i, const Body& body, const Pose& pose, std::vector<
         field_.countEvaluations(1);
         if (const Slope slope = solid.slopeAt(pose.position); slope.distance < deepest.distance) deepest = slope;
     });
-    const double steep = glm::length(deepest.gradient);
-    WayOut way{steep > 1e-6 ? deepest.gradient / steep : glm::dvec3{0, 1, 0}, -deepest.distance};
-    if (!(steep > 1e-6) || field_.isBlocked(pose.position + way.length * way.direction, way.direction, body.inner))
+    WayOut way{wayOutAlong(deepest), -deepest.distance};
+    if (!isSloping(deepest) || field_.isBlocked(pose.position + way.length * way.direction, way.direction, body.inner))
         way = field_.wayOut(pose.position, body.inner).value_or(way);
     addWayOut(i, body, {}, way, io_contacts);
 }

@@ -8,7 +8,6 @@
 namespace mb {
 namespace {
 
-constexpr double kAlike = 0.97;             // of two unit normals' product: the same face
 constexpr double kSame = 0.02;              // of the spacing: places nearer than this are one
 constexpr double kAlone = 1.5;              // of the spacing: the lowest point within it is looked at
 constexpr double kOneEdge = 0.9;            // of two surface normals' product: one edge's, or one curve's

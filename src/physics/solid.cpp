@@ -49,6 +49,10 @@ double radiusOf(const Box& box) {
 }  // namespace
 
 /// Where hard operators alone join the leaves, the value is one leaf's, and so is the slope.
+bool isSloping(const Slope& slope) { return glm::length(slope.gradient) > 1e-6; }
+
+glm::dvec3 wayOutAlong(const Slope& slope) { return isSloping(slope) ? slope.gradient / glm::length(slope.gradient) : glm::dvec3{0, 1, 0}; }
+
 Slope Solid::slopeAt(glm::dvec3 p) const {
     if (blended) return slope(tree, p);
     const std::span<const Instruction> near = grid ? grid->tapeAt(p) : std::span<const Instruction>{};

@@ -25,6 +25,10 @@ struct Solid {
     Slope slopeAt(glm::dvec3 p) const;
 };
 
+/// Whether a slope has a direction, and the way out of a solid along it: unit, upwards where there is none.
+bool isSloping(const Slope& slope);
+glm::dvec3 wayOutAlong(const Slope& slope);
+
 /// `with_points`: something whose shape is no ball may meet it. `before`: what stood there, whose grid saves work.
 Solid makeSolid(Tree tree, bool with_points, const Solid* before = nullptr);
 

@@ -4,6 +4,7 @@
 #include "physics/touch.h"
 
 #include <atomic>
+#include <functional>
 #include <optional>
 
 namespace mb {

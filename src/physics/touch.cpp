@@ -155,10 +155,8 @@ FreeGap addTouches(const Solid& solid, const Ball& ball, double margin, std::vec
     FreeGap gap{INFINITY, f - ball.radius};
     if (f - ball.radius > margin) return {f - ball.radius, f - ball.radius};
     if (f <= 2 * kTooNear * ball.radius) {
-        // The centre is inside, or on the surface: out along the gradient, and upwards where it is 0.
-        const glm::dvec3 g = solid.slopeAt(ball.centre).gradient;
-        const double l = glm::length(g);
-        const glm::dvec3 n = l > 1e-6 ? g / l : glm::dvec3{0, 1, 0};
+        // The centre is inside, or on the surface.
+        const glm::dvec3 n = wayOutAlong(solid.slopeAt(ball.centre));
         found.push_back({ball.centre - f * n, n, f - ball.radius});
     } else if (lone) {
         const glm::dvec3 n = glm::normalize(of_lone.gradient);
