@@ -51,6 +51,7 @@ inline bool restsThrough(double duration, const ApproachLimits& limits, double e
 /// is at an end); then a bracketed root (Illinois' variant of regula falsi; Dowell, Jarratt, 1971).
 template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, const ApproachLimits& limits) {
     constexpr int kMostSamples = 20'000;
+    constexpr double kDeep = 0.1;  // of the noise: else a corner that slides along a hollow would sink in by so much at every impact
     Meeting m;
     const auto sample = [&](double t) { return ++m.samples, gap_at(t); };
     GapAt here = sample(from);
@@ -60,9 +61,9 @@ template <class Gap> Meeting firstMeeting(Gap gap_at, double from, double to, co
     if (here.measured && here.gap <= 0 && here.rate < -limits.bounce) return m.found = true, m.time = from, m;
 
     // The time between t and t1 when the gap passes 0; where it is about 0 at t already, since they rest on one another
-    // there and meet elsewhere, when it passes a little less.
+    // there and meet elsewhere, when it passes a little less; and hardly less where it is too deep already.
     const auto root = [&](GapAt a, double t1, GapAt b) {
-        const double noise = limits.noise * limits.depth, level = a.gap > noise ? 0 : a.gap - noise;
+        const double noise = (a.gap < -limits.depth ? kDeep : 1) * limits.noise * limits.depth, level = a.gap > noise ? 0 : a.gap - noise;
         double lo = t, hi = t1, ga = a.gap - level, gb = b.gap - level;
         if (gb >= 0) return t1;
         for (int i = 0, side = 0; i < 100 && hi - lo > 1e-15; ++i) {

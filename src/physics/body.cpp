@@ -2,6 +2,8 @@
 
 #include <glm/matrix.hpp>
 
+#include <optional>
+
 namespace mb {
 
 glm::dmat3 Body::worldInverseInertia() const {
@@ -77,18 +79,73 @@ double turningSpeedOfShape(const Body& body) {
     return (1 + 1e-9) * std::fmin(glm::length(speed), body.radius * whole);
 }
 
+namespace {
+
+constexpr double kMostAngle = 0.1;  // of one of many turns, rad: its own error is the cube of it over twelve
+constexpr int kMostTurns = 1024;
+
+/// The eigenvalues of an inverse inertia two of which are equal, 1/(kg·m²).
+struct Symmetric {
+    double across = 0, along = 0;   // the double one, and that of the axis
+    glm::dvec3 axis{1, 0, 0};       // unit
+};
+
+/// Nothing where no two are equal, to a billionth of the greatest.
+std::optional<Symmetric> symmetryOf(const glm::dmat3& inverse) {
+    double trace = 0, squares = 0;
+    for (int k = 0; k < 3; ++k) trace += inverse[k][k], squares += glm::dot(inverse[k], inverse[k]);
+    const double apart = std::sqrt(std::fmax(0.5 * (3 * squares - trace * trace), 0));
+    for (const double by : {apart, -apart}) {
+        Symmetric s{(trace - by) / 3, (trace + 2 * by) / 3};
+        const glm::dmat3 left = inverse - glm::dmat3{s.across}, product = left * (inverse - glm::dmat3{s.along});
+        double error = 0, longest = 0;
+        for (int k = 0; k < 3; ++k) {
+            error = std::fmax(error, glm::length(product[k]));
+            if (const double l = glm::length(left[k]); l > longest) longest = l, s.axis = left[k] / l;
+        }
+        if (error <= 1e-9 * trace * trace) return s;
+    }
+    return {};
+}
+
+/// A turn too long to be made of short ones. The angular momentum is kept to rounding, and so is the energy. Where the body has an axis
+/// of symmetry the turn is the true one: about the angular momentum, then about that axis (Landau, Lifshitz, "Mechanics", 1960, section
+/// 33). Else the body is turned about its angular momentum alone, no faster than any of its points truly gets: as many as sixteen whole
+/// turns in one part of a step leave its attitude unknown.
+void turnFar(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time) {
+    const glm::dvec3 momentum = angularMomentum(body, io_spin);
+    const glm::dmat3& inverse = body.inverse_inertia;
+    const glm::dmat3 before = glm::mat3_cast(io_orientation);
+    if (const std::optional<Symmetric> s = symmetryOf(inverse)) {
+        io_orientation = turned(io_orientation, s->across * momentum, time);
+        const double own = (s->along - s->across) * glm::dot(before * s->axis, momentum);
+        io_orientation = glm::normalize(io_orientation * turned({1, 0, 0, 0}, own * s->axis, time));
+    } else {
+        double slowest = INFINITY;  // no eigenvalue of the inverse inertia is less (Gershgorin's circles)
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 row = glm::abs(body.inertia[k]);
+            slowest = std::fmin(slowest, 1 / (row.x + row.y + row.z));
+        }
+        io_orientation = turned(io_orientation, slowest * momentum, time);
+    }
+    const glm::dmat3 after = glm::mat3_cast(io_orientation);
+    io_spin = after * (inverse * (momentum * after));
+}
+
+}  // namespace
+
 void turnFreely(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time) {
     if (io_spin == glm::dvec3{0}) return;
     if (body.isBall()) {
         io_orientation = turned(io_orientation, io_spin, time);
         return;
     }
+    const double angle = glm::length(io_spin) * time;
+    if (!(angle <= kMostAngle * kMostTurns)) return turnFar(body, io_orientation, io_spin, time);
+    const int turns = static_cast<int>(std::ceil(angle / kMostAngle));
     // In the body's frame the angular momentum m goes by m' = m × I⁻¹m. The implicit midpoint rule keeps |m|² and m·I⁻¹m, and
     // the turn that goes with it, (1, h/2·I⁻¹(m₀ + m₁)/2) made a unit, takes m₁ in the new frame to m₀ in the old one.
-    constexpr double kMostAngle = 0.1;  // of one turn, rad: its own error is the cube of it over twelve
-    constexpr int kMostTurns = 256, kRounds = 20;
-    const double angle = glm::length(io_spin) * time;
-    const int turns = static_cast<int>(std::fmin(std::ceil(angle / kMostAngle), kMostTurns));
+    constexpr int kRounds = 20;
     const double h = time / std::max(turns, 1);
     const glm::dmat3 before = glm::mat3_cast(io_orientation);
     glm::dvec3 m = body.inertia * (io_spin * before);

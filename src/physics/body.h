@@ -82,6 +82,7 @@ glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& spin, double 
 
 /// Turns a body's orientation freely for a time, and its spin with it: the angular momentum keeps its value and direction, and
 /// the energy its value, to rounding. Source: Austin, Krishnaprasad, Wang, "Almost Poisson Integration of Rigid Body Systems" (1993).
+/// Beyond 102 rad at once the attitude is followed only of what has an axis of symmetry.
 void turnFreely(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, double time);
 
 }  // namespace mb

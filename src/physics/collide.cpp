@@ -9,6 +9,7 @@ namespace {
 /// Of a contact with what does not move: less is undone by any way.
 bool isDeep(const Contact& c, const Body& body) { return c.gap < -0.02 * body.inner; }
 
+constexpr double kOneInAnother = 0.1;  // of half the thinner thickness: shapes whose middles are so near are parted without a look at their surfaces
 constexpr double kFollowed = 0.01;  // of half the thinner thickness: how far shapes may move against one another and keep their points
 }
 
@@ -56,7 +57,8 @@ void Collider::between(int i, const Body& a, const Pose& pose_a, int j, const Bo
         ballWithShape(i, a, pose_a, j, b, pose_b, margin, io_contacts);
     } else if (b.isBall()) {
         ballWithShape(j, b, pose_b, i, a, pose_a, margin, io_contacts);
-    } else {
+    } else if (glm::length(pose_a.position - pose_b.position) > kOneInAnother * std::min(a.inner, b.inner) ||
+               !part(i, a, pose_a, j, b, pose_b, io_contacts)) {
         const auto find = [&](double within, std::uint64_t& io_evaluations) {
             const Placed other{b.solid.get(), pose_b, 0};
             return manifold({a.solid.get(), pose_a, 0}, {&other, 1}, within, io_evaluations);
@@ -88,16 +90,17 @@ bool Collider::holds(const Body& body, const Pose& pose, glm::dvec3 place) const
 }
 
 /// Two shapes so deep in one another that no surface faces the other's are parted along the line of their centres, if one of these or the
-/// middle between them is in both.
-void Collider::part(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
+/// middle between them is in both. Says whether they are.
+bool Collider::part(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const {
     const double deep = a.inner + b.inner - glm::length(pose_a.position - pose_b.position);
-    if (!(deep > 0)) return;
+    if (!(deep > 0)) return false;
     const auto in_both = [&](glm::dvec3 place) { return holds(a, pose_a, place) && holds(b, pose_b, place); };
-    if (!in_both(0.5 * (pose_a.position + pose_b.position)) && !in_both(pose_a.position) && !in_both(pose_b.position)) return;
+    if (!in_both(0.5 * (pose_a.position + pose_b.position)) && !in_both(pose_a.position) && !in_both(pose_b.position)) return false;
     Contact c;
     c.a = i, c.b = j, c.normal = directionApart(a, b), c.gap = -deep, c.depth = restDepth(std::min(a.inner, b.inner)), c.way_out = true;
     c.arm_b = pose_a.position - pose_b.position;
     io_contacts.push_back(c);
+    return true;
 }
 
 /// A shape whose middle is in what does not move, where no surface that faces its own says so, is parted along the field's slope

@@ -24,7 +24,7 @@ public:
 private:
     void ballWithShape(int i, const Body& ball, const Pose& at, int j, const Body& shape, const Pose& pose, double margin,
                        std::vector<Contact>& io_contacts) const;
-    void part(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const;
+    bool part(int i, const Body& a, const Pose& pose_a, int j, const Body& b, const Pose& pose_b, std::vector<Contact>& io_contacts) const;
     void leaveBuried(int i, const Body& body, const Pose& pose, std::vector<Contact>& io_contacts) const;
     void addWayOut(int i, const Body& body, glm::dvec3 arm, const WayOut& way, std::vector<Contact>& io_contacts) const;
     void leaveBlocked(int i, const Body& body, const Pose& pose, std::size_t first, std::vector<Contact>& io_contacts) const;

@@ -19,6 +19,14 @@ constexpr double kStruck = 0.02;
 glm::dvec3 positionAfter(const Body& b, const glm::dvec3& acceleration, double time) {
     return b.position + time * b.velocity + (0.5 * time * time) * acceleration;
 }
+
+/// Turns a body at an angular acceleration: half-way through it is given all that adds to its spin (carry.cpp).
+void turn(const Body& body, glm::dquat& io_orientation, glm::dvec3& io_spin, const glm::dvec3& acceleration, double time) {
+    if (acceleration == glm::dvec3{0}) return turnFreely(body, io_orientation, io_spin, time);
+    turnFreely(body, io_orientation, io_spin, 0.5 * time);
+    io_spin += time * acceleration;
+    turnFreely(body, io_orientation, io_spin, 0.5 * time);
+}
 }  // namespace
 
 Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const StaticField& field, const FlightRules& rules,
@@ -26,7 +34,8 @@ Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const 
     : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), collider_(rules.world, field, io_counts),
       paths_(bodies.size()), pairs_(pairs) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin;
+        paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin,
+        paths_[i].carried = bodies[i].awake && accelerations[i].velocity != rules.world.fall();
 }
 
 /// Where each body may get within the part, and whom it may meet there: before anything is advanced.
@@ -88,8 +97,7 @@ Pose Flight::poseAt(std::size_t i, double t) const {
     glm::dvec3 spin = b.spin;
     const double s = t - paths_[i].time;
     if (s > 0 && !paths_[i].held && b.awake && has(Stage::spin)) {
-        spin += (0.5 * s) * paths_[i].turning;
-        turnFreely(b, orientation, spin, s);
+        turn(b, orientation, spin, paths_[i].turning, s);
     }
     pose.rotation = glm::mat3_cast(orientation);
     return pose;
@@ -121,10 +129,7 @@ void advance(Body& io_body, const Motion& acceleration, double time, bool spins,
     io_body.velocity += time * acceleration.velocity;
     if (!spins) return;
     ++io_counts.turned;
-    const glm::dvec3 half = (0.5 * time) * acceleration.spin;
-    io_body.spin += half;
-    turnFreely(io_body, io_body.orientation, io_body.spin, time);
-    io_body.spin += half;
+    turn(io_body, io_body.orientation, io_body.spin, acceleration.spin, time);
 }
 
 void Flight::advance(std::size_t i, double t) {
@@ -236,10 +241,12 @@ GapAt Flight::shapeGap(std::size_t i, std::size_t j, double t, double margin) {
 /// How deep a slow shape is let in, m. Where it keeps meeting something slowly, as between the edges it rests on, ever deeper: at such
 /// speed it does not get far within the part, and the next moves it out.
 double Flight::depthOf(std::size_t i, std::size_t j) const {
+    constexpr double kCarried = 0.1;   // of what gravity gets it to: where its contacts carry it, they are met no sooner
     constexpr double kShallow = 0.05;  // of half the thickness; and where that is not sure, no deeper
     const double inner = std::min(bodies_[i].inner, bodies_[j].inner);
-    if (rules_.bounce * rules_.duration > kShallow * inner) return restDepth(inner);
-    return std::ldexp(restDepth(inner), std::min(2 * std::max(paths_[i].slow, paths_[j].slow), 16));
+    const double far = rules_.bounce * rules_.duration, carried = std::clamp(kCarried * far, restDepth(inner), kShallow * inner);
+    const double first = paths_[i].carried || paths_[j].carried ? carried : restDepth(inner);
+    return far > kShallow * inner ? first : std::ldexp(first, std::min(2 * std::max(paths_[i].slow, paths_[j].slow), 16));
 }
 
 void Flight::expectStaticOfShape(std::size_t i) {

@@ -89,11 +89,14 @@ std::optional<Divergence> compare(const Recording& recording, const PhysicsWorld
     const StepHash& recorded = recording.steps[world.steps() - 1];
     const StepHash found = hashOf(world);
     const ObjectId body = firstOther(recorded.bodies, found.bodies, world, before);
-    if (recorded.state == found.state && !body) return {};
+    const bool as_many = recorded.bodies.empty() || recorded.bodies.size() == found.bodies.size();
+    if (recorded.state == found.state && !body && as_many) return {};
     return Divergence{world.steps(), body ? nameOf(recording, body) : std::string{}, recorded.state, found.state};
 }
 
 std::string describe(const Divergence& d) {
+    if (d.body.empty() && d.found == d.recorded)
+        return fmt::format("at step {}: the recording has hashes of another number of bodies; the whole state is the same", d.step);
     const std::string what = d.body.empty() ? "the state is another, and no body is known to be" : fmt::format("body '{}' is another", d.body);
     if (d.found == d.recorded) return fmt::format("at step {}: {}, by the hash of it that was recorded; that of the whole state is the same", d.step, what);
     return fmt::format("at step {}: {} (state {:016x}, recorded {:016x})", d.step, what, d.found, d.recorded);

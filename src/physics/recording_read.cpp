@@ -203,6 +203,9 @@ void Reader::argument(const Piece& piece, const Argument& argument, Action& out)
         void operator()(ObjectId Action::*m) const {
             const auto id = parseWhole<std::uint32_t>(piece.value.text);
             if (!id || *id == 0) return reader.add(piece, "expected the number of an object, from 1");
+            const Scene* start = reader.result_.recording.start.get();
+            if (start && std::ranges::find(start->objects, ObjectId{*id}, &Object::id) == start->objects.end())
+                return reader.add(piece, "but the scene has no object of that number");
             (out.*m).value = *id;
         }
         void operator()(std::uint64_t Action::*m) const {

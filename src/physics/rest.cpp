@@ -1,12 +1,5 @@
-// Contacts that last: what holds a resting ball up, makes a rolling one roll, and puts a still one to sleep.
-//
-// A resting contact's impulse over a part of length h is found with its normal where the ball will be half-way through:
-// the mean of the velocities before and after shall not approach. That is the implicit midpoint rule: the mean velocity
-// moves the ball along a chord of a curved surface, whose ends both lie on it, and the normal impulse does no work
-// (Hairer, Lubich, Wanner, "Geometric Numerical Integration", 2006, section IV.1). With the normal at the start instead, a
-// ball in a bowl would gain energy at every part.
+// Bodies that lie on something: what sleeps, how overlaps are undone and approaches ended, and which impulses are kept.
 #include "core/effects/effect.h"
-#include "physics/rolling.h"
 #include "physics/world.h"
 
 #include <glm/geometric.hpp>
@@ -29,12 +22,14 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     }
 }
 
-void PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
-    const double length = glm::length(by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(by.spin));
-    if (!io_body.awake || !(length > 0)) return;
+/// Moves and turns a body by that, or as much of it as a part of length h allows; leaves in `io_by` what it did.
+void PhysicsWorld::move(Body& io_body, Motion& io_by, double h) {
+    const double length = glm::length(io_by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(io_by.spin));
+    if (!io_body.awake || !(length > 0)) return void(io_by = {});
     const double most = std::min(kPushOutSpeed * h, 0.25 * io_body.inner), share = length > most ? most / length : 1.0;
-    io_body.position += share * by.velocity;
-    if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, by.spin, share);
+    io_by.velocity *= share, io_by.spin *= share;
+    io_body.position += io_by.velocity;
+    if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, io_by.spin, 1);
 }
 
 /// The numbers of the bodies of contacts, each once; `scratch_.motion` has a place for each.
@@ -48,7 +43,7 @@ std::span<const int> PhysicsWorld::membersOf(std::span<const Contact> contacts) 
 }
 
 /// Moves overlapping bodies apart, without giving them velocity, the share `push_out` of the overlap a part and not faster than
-/// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements).
+/// kPushOutSpeed (the split impulses of Catto, "Modeling and Solving Constraints", 2009, as displacements). The contacts' gaps follow.
 void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     // The displacements are solved for as velocities are, without friction.
     bool any = false;
@@ -58,8 +53,11 @@ void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     std::vector<Motion>& moved = scratch_.motion;
     for (const int i : members) moved[slot(i)] = {};
     solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
-    for (Contact& c : io_contacts) c.push = 0;
     for (const int i : members) move(bodies_[slot(i)], moved[slot(i)], h);
+    for (Contact& c : io_contacts) {
+        c.push = 0;
+        c.gap += glm::dot(relativeVelocity(moved[slot(c.a)], c.b == kStatic ? nullptr : &moved[slot(c.b)], c, has(Stage::spin)), c.normal);
+    }
 }
 
 /// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
@@ -83,61 +81,6 @@ void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
     for (const int i : members) motion[slot(i)] = motionOf(bodies_[slot(i)]);
     solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
     for (const int i : members) bodies_[slot(i)].velocity = motion[slot(i)].velocity, bodies_[slot(i)].spin = motion[slot(i)].spin;
-}
-
-/// The same contacts with the normals that balls will have half-way through the part; those that will have parted are left out.
-std::vector<Contact> PhysicsWorld::atMidway(std::span<const Contact> contacts, double h) {
-    std::vector<Contact> midway;
-    std::vector<Touch> touches;
-    int of = -1;
-    for (const Contact& c : contacts) {
-        Contact m = c;
-        m.push = 0, m.drag = {}, m.twist = 0, m.target = 0, m.slip = {};
-        if (!betweenBalls(bodies_, c)) {
-            midway.push_back(m);
-            continue;
-        }
-        const Body& a = bodies_[slot(c.a)];
-        const glm::dvec3 x = a.position + (0.5 * h) * a.velocity;
-        if (c.b != kStatic) {
-            const Body& b = bodies_[slot(c.b)];
-            const glm::dvec3 apart = x - b.position - (0.5 * h) * b.velocity;
-            if (const double d = glm::length(apart); d > 0.5 * (a.radius + b.radius)) m.normal = apart / d;
-            m.arm_a = -a.radius * m.normal, m.arm_b = b.radius * m.normal;
-            midway.push_back(m);
-            continue;
-        }
-        if (of != c.a) {
-            field_.touches(x, a.radius, kNear * a.radius, touches), of = c.a;
-            ++counts_.static_queries;
-        }
-        const Touch* best = nullptr;
-        for (const Touch& t : touches)
-            if (!best || glm::dot(t.normal, c.normal) > glm::dot(best->normal, c.normal)) best = &t;
-        if (!best || glm::dot(best->normal, c.normal) < 0.7 || (c.flown && best->gap > restDepth(a.radius))) continue;
-        m.normal = best->normal, m.arm_a = -a.radius * m.normal;
-        midway.push_back(m);
-    }
-    return midway;
-}
-
-/// What the velocities after the part shall be: in mean no approach beyond the gap there is. For a ball's friction no slip, unless
-/// it would turn round on the way: then the mean slip is none, so that friction never does work on the ball.
-void PhysicsWorld::setTargets(std::span<Contact> contacts, double h) const {
-    const glm::dvec3 fall = world_.fall() * h;
-    for (Contact& c : contacts) {
-        const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
-        const double away = glm::dot(v, c.normal);
-        if (!betweenBalls(bodies_, c)) {
-            c.target = -2 * std::max(c.gap, 0.0) / h - std::max(away, 0.0);
-            continue;
-        }
-        c.target = -away - (c.flown ? 0 : 2 * std::max(c.gap, 0.0) / h);
-        if (!has(Stage::friction)) continue;
-        const glm::dvec3 slip = v - away * c.normal;
-        const glm::dvec3 pulled = c.b == kStatic ? fall - glm::dot(fall, c.normal) * c.normal : glm::dvec3{0};
-        c.slip = glm::dot(slip, slip + pulled) < 0 ? -slip : glm::dvec3{0};
-    }
 }
 
 /// Whether an impulse kept from the last part is this contact's: found from the same point, or at about the same place. Of a ball
@@ -229,23 +172,6 @@ std::vector<Motion> PhysicsWorld::falling() const {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (bodies_[i].awake) accelerations[i].velocity = fall;
     return accelerations;
-}
-
-/// Adds what the contacts a body rests on do to it through the part, and returns them with their impulses. Of a body that nothing carries the acceleration stays
-/// gravity itself: the quotient would round it.
-std::vector<Contact> PhysicsWorld::carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations) {
-    std::vector<Contact> midway = atMidway(contacts, h);
-    setTargets(midway, h);
-    takeKept(midway);
-    const std::span<const int> members = membersOf(midway);
-    std::vector<Motion>& after = scratch_.motion;
-    for (const int i : members) after[slot(i)] = {bodies_[slot(i)].velocity + world_.fall() * h, bodies_[slot(i)].spin};
-    solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
-    for (const int i : members) {
-        const Body& b = bodies_[slot(i)];
-        io_accelerations[slot(i)] = {(after[slot(i)].velocity - b.velocity) / h, (after[slot(i)].spin - b.spin) / h};
-    }
-    return midway;
 }
 
 /// Counts for how long each body that touches something has been still: slower than `sleep_speed`; without gravity only rest

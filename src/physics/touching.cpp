@@ -24,10 +24,15 @@ std::span<Contact> PhysicsWorld::touching(double h) {
 
 void PhysicsWorld::noteWaysOut() {
     const auto name = [&](int i) { return bodies_[static_cast<std::size_t>(i)].name; };
-    for (const Contact& c : scratch_.found)
-        if (c.way_out)
-            note(fmt::format("{}: so deep in {} that no surface of theirs faces the other's; moved out a straight way, at {} m/s at most", name(c.a),
-                             c.b == kStatic ? "what does not move" : name(c.b), kPushOutSpeed));
+    constexpr int kNamed = 8;  // of a heap of bodies in one place some tell enough
+    for (const Contact& c : scratch_.found) {
+        if (!c.way_out || ways_named_ > kNamed) continue;
+        const std::size_t before = notes_.size();
+        if (ways_named_ == kNamed) note("more are so deep in one another, which are not named");
+        else note(fmt::format("{}: so deep in {} that no surface of theirs faces the other's; moved out a straight way, at {} m/s at most", name(c.a),
+                              c.b == kStatic ? "what does not move" : name(c.b), kPushOutSpeed));
+        ways_named_ += notes_.size() > before;
+    }
 }
 
 /// Appends what is found of the first `count` things, in their order, whichever thread finds it: find(i, io_found) adds what there is

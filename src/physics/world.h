@@ -180,7 +180,7 @@ private:
     void wakeAndSleep(const Islands& islands);
     void pushApart(std::span<Contact> io_contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
-    std::vector<Contact> carry(std::span<const Contact> contacts, double h, std::span<Motion> io_accelerations);
+    std::vector<Contact> carry(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
     void settleCrowds(std::span<Contact> contacts, std::span<const std::uint32_t> numbers, double h, std::span<Motion> io_accelerations);
     double aimCrowd(Contact& io_c, const FlightRules& rules);
     void settleCrowd(std::span<Contact> contacts, std::span<const std::uint32_t> island, const FlightRules& rules, std::span<Motion> io_accelerations);
@@ -190,9 +190,20 @@ private:
         const double deep = -c.gap - 0.5 * c.depth;
         return deep > 0 ? knobs_.push_out * deep : deep;
     }
-    static void move(Body& io_body, const Motion& by, double h);
+    static void move(Body& io_body, Motion& io_by, double h);
+    struct Moment {                                            // of a body in a part
+        int body;
+        glm::dvec3 position;
+        glm::dquat orientation;
+        glm::dvec3 spin;
+    };
+    std::vector<Moment> goMidway(std::span<const int> members, double h);
+    void goBack(std::span<const Moment> before);
+    void ballsMidway(std::span<const Contact> start, std::vector<Contact>& io_midway);
+    bool movesOn(std::span<const Contact> start, double h) const;
+    void findMidway(std::span<const Contact> start, double h, std::vector<Contact>& io_midway, StepCounts& io_counts) const;
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);
-    void setTargets(std::span<Contact> contacts, double h) const;
+    void aim(Contact& io_c, double h) const;
     bool isOf(const Kept& kept, const Contact& c) const;
     struct Range {
         std::size_t begin = 0, end = 0;
@@ -234,6 +245,7 @@ private:
     std::uint64_t steps_ = 0, impacts_ = 0, held_ = 0, before_ = 0;
     unsigned threads_ = std::min(coresOf(), 4u);
     int removed_ = 0, contacts_ = 0;
+    int ways_named_ = 0;                                       // notes of ways out
     int shapes_ = 0, owners_ = 0;                              // bodies that are no balls; whose surface is of its own
 };
 

@@ -208,7 +208,7 @@ TEST_CASE("case 69: on any ramp a ball rolls if tan θ ≤ 3.5 μ, and else slid
             const Rolled r = onRamp("ball", degrees, mu, 1.0 / 120, false);
             const double want = rolls ? roll : slide, spin = rolls ? roll : 2.5 * mu * kG * std::cos(a);
             worst = std::max({worst, std::fabs(r.acceleration / want - 1), std::fabs(r.spin - spin) / roll});
-            if (mu > 0 && std::tan(a) > 0.8 * mu) continue;  // open
+            if (mu > 0 && std::tan(a) > 0.8 * mu) continue;  // of a box that slides with friction: motion_shapes.cpp
             const Rolled b = onRamp("box", degrees, mu, 1.0 / 120, false);
             of_box = std::max({of_box, std::fabs(b.acceleration - std::max(slide, 0.0)) / (kG * std::sin(a)), std::fabs(b.spin) / roll});
         }

@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <numeric>
-#include <vector>
+#include <algorithm>
 
 using namespace mb;
 using namespace mb::test;
@@ -72,6 +71,17 @@ TEST_CASE("case 78: a cube in a right-angled groove, a capsule along it and a ba
     }
 }
 
+namespace {
+/// What energy a step adds, J, beyond what lifts the heaviest body out of the deepest overlap there is: overlaps are undone.
+double gainOfStep(PhysicsWorld& io_w) {
+    double heaviest = 0;
+    for (const Body& b : io_w.bodies()) heaviest = std::max(heaviest, b.mass());
+    const double before = io_w.energy().total(), lift = kG * heaviest * io_w.maxPenetration();
+    io_w.step();
+    return io_w.energy().total() - before - lift;
+}
+}  // namespace
+
 TEST_CASE("case 79: a body put on a ridge or a ball stays or falls, the same way each time, and a ball gains no energy") {
     for (const std::string_view kind : {"ball", "box"}) {
         std::uint64_t hash[2] = {};
@@ -87,18 +97,13 @@ TEST_CASE("case 79: a body put on a ridge or a ball stays or falls, the same way
             }
             PhysicsWorld w(s);
             const double start = w.energy().total();
-            double last = start;
-            for (int i = 0; i < 240; ++i) {
-                w.step();
-                const double now = w.energy().total();
-                most = std::max(most, (now - last) / start), last = now;
-            }
+            for (int i = 0; i < 240; ++i) most = std::max(most, gainOfStep(w) / start);
             CHECK(w.bodies().size() == 4);
             h = w.stateHash();
         }
         CAPTURE(kind);
         CHECK(hash[0] == hash[1]);
-        CHECK(most <= (kind == "ball" ? 1e-9 : 1e-4));  // open: of a box
+        CHECK(most <= 1e-9);
         MESSAGE(kind, ": energy up by ", most, " in a step");
     }
 }
@@ -162,33 +167,67 @@ Scene anyScene(std::uint64_t seed, double dt, bool balls) {
 }  // namespace
 
 TEST_CASE("case 81: energy never grows, and nothing sinks in, whatever the scene") {
-    // Of all kinds the seeds 10 and 21 are open: what rolls gains 2.4e-5 and 1.6e-5 in a step.
     for (const bool balls : {true, false}) {
-        double most = 0, deepest = 0;
-        std::vector<std::uint64_t> seeds(balls ? 12 : 24);
-        std::iota(seeds.begin(), seeds.end(), 1);
-        if (!balls) std::erase_if(seeds, [](std::uint64_t seed) { return seed == 10 || seed == 21; });
-        for (const std::uint64_t seed : seeds) {
+        double most = 0, coarse = 0, deepest = 0;  // coarse: of steps of 1/30 s
+        for (std::uint64_t seed = 1; seed <= (balls ? 12 : 24); ++seed) {
             const double dt = seed % 3 == 0 ? 1.0 / 30 : seed % 3 == 1 ? 1.0 / 60 : 1.0 / 240;
             PhysicsWorld w(anyScene(seed, dt, balls));
             const double start = w.energy().total();
-            double last = start;
-            while (w.time_s() < 3) {
-                w.step();
-                const double now = w.energy().total();
-                most = std::max(most, (now - last) / start);
-                last = now;
-            }
+            double& gained = dt > 0.02 ? coarse : most;
+            while (w.time_s() < 3) gained = std::max(gained, gainOfStep(w) / start);
             CAPTURE(seed);
             // Five resting depths: a ball squeezed between others. What rolls on edges sinks in as it lands on the next one, by what it turns in
             // a part, and is moved out again.
-            CHECK(w.maxPenetration() <= (balls ? 5e-4 : dt > 0.02 ? 5e-3 : 1.5e-3));
+            CHECK(w.maxPenetration() <= (balls ? 5e-4 : dt > 0.02 ? 3e-3 : 1e-3));
             deepest = std::max(deepest, w.maxPenetration());
             CHECK(w.removed() == 0);
             CHECK(w.bodies().size() == 20);
         }
         CAPTURE(balls);
-        CHECK(most <= 1e-5);
-        MESSAGE(std::string_view(balls ? "balls" : "all kinds"), ": most energy gained in a step ", most, " of all, deepest ", deepest);
+        CHECK(most <= 1e-9);
+        // What lands on another edge in the middle of a step is pushed by the first one until the step ends.
+        CHECK(coarse <= (balls ? 1e-9 : 1e-4));
+        MESSAGE(std::string_view(balls ? "balls" : "all kinds"), ": most energy gained in a step ", most, " of all, ", coarse, " in steps of 1/30 s, deepest ", deepest);
+    }
+}
+
+namespace {
+/// One body alone on a floor, in parts as long as those of the default knobs.
+struct Wobbler {
+    Wobbler(std::string_view of, std::string_view type, glm::dvec3 pos, std::initializer_list<double> numbers, glm::dvec3 rot, glm::dvec3 spin)
+        : name(of), alone(scene(1.0 / 240, 0, 0.5)) {
+        floor(alone);
+        Object& o = add(alone, type, pos, numbers);
+        o.rot = rot, o.spin = spin, o.density = 2500;
+    }
+    void with(std::string_view type, glm::dvec3 pos, std::initializer_list<double> numbers, double turned = 0) {
+        add(alone, type, pos, numbers, 1).rot = {0, turned, 0};
+    }
+    static Wobbler disc(std::string_view of, double radius, double height, glm::dvec3 spin) {
+        const double tilt = glm::radians(15.0);
+        return {of, "cylinder", {0, radius * std::sin(tilt) + 0.5 * height * std::cos(tilt), 0}, {radius, height, 0}, {0, 0, 15}, spin};
+    }
+    std::string_view name;
+    Scene alone;
+};
+}  // namespace
+
+TEST_CASE("case 81: coins, plates, a cup and a rattleback that roll and wobble gain no energy") {
+    Wobbler cup("cup", "subtract", {0, 0.3, 0}, {0}, {70, 0, 10}, {0, 5, 8});
+    cup.with("cylinder", {}, {0.15, 0.3, 0}), cup.with("cylinder", {0, 0.02, 0}, {0.13, 0.3, 0});
+    Wobbler rattleback("rattleback", "union", {0, 0.2, 0}, {0}, {}, {0, 8, 0.5});
+    rattleback.with("ellipsoid", {}, {0.5, 0.1, 0.15}), rattleback.with("box", {0, 0.08, 0}, {0.3, 0.05, 0.08, 0}, 25);
+    for (const Wobbler& wobbler : {Wobbler::disc("coin", 0.1, 0.003, {1.5, 12, 0}), Wobbler::disc("penny", 0.01, 0.0015, {0.5, 40, 0}),
+                                   Wobbler::disc("plate", 0.15, 0.01, {1.5, 9, 0}), Wobbler::disc("disc", 0.1, 0.02, {1.5, 12, 0}), cup, rattleback}) {
+        PhysicsWorld w(wobbler.alone);
+        const double start = w.energy().total();
+        double most = 0, deepest = 0;
+        while (w.time_s() < 4) most = std::max(most, gainOfStep(w) / start), deepest = std::max(deepest, w.maxPenetration());
+        CAPTURE(wobbler.name);
+        CHECK(most <= 2e-6);
+        CHECK(deepest <= 1e-3);
+        CHECK(w.held() <= 5);  // about to lie down flat it may strike its rim more often than is followed
+        MESSAGE(wobbler.name, ": most energy gained in a step ", most, " of all, left ", w.energy().total() / start, ", deepest ", deepest, " m, ",
+                std::string_view(w.awake() == 0 ? "asleep" : "awake"), ", held ", w.held());
     }
 }

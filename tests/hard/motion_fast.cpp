@@ -49,8 +49,14 @@ bool staysIn(std::string_view kind, bool round, Random& io_random) {
     for (int i = 0; i < 15; ++i) {
         w.step();
         if (w.bodies().empty()) return false;
-        const glm::dvec3 p = w.bodies()[0].position, size = glm::abs(p);
-        if (round ? glm::length(p) >= 1 : std::max({size.x, size.y, size.z}) >= 1) return false;
+        const auto outside = [&](const glm::dvec3& p, double wall) {
+            const glm::dvec3 size = glm::abs(p);
+            return (round ? glm::length(p) : std::max({size.x, size.y, size.z})) >= wall;
+        };
+        const Body& b = w.bodies()[0];
+        if (outside(b.position, 1)) return false;
+        for (int k = 0; k < 8 && !b.isBall(); ++k)  // no corner has come out
+            if (outside(b.pose().toWorld({k & 1 ? 0.1 : -0.1, k & 2 ? 0.1 : -0.1, k & 4 ? 0.1 : -0.1}), 1.001)) return false;
     }
     return true;
 }

@@ -167,9 +167,16 @@ TEST_CASE("a run with a hand in it is the same again, from its recording too, an
     t.seek(120);
     CHECK(t.world().stateHash() == end);
     CHECK_FALSE(t.divergence());
-    const auto refused = [](const char* line) { return !readRecording(std::string("marchbox-recording 1\nscene\n  marchbox 1\n") + line + "\nend\n").ok(); };
+    const auto refused = [](const char* line) {
+        const std::string recording = std::string("marchbox-recording 1\nscene\n  marchbox 1\n  object name:a type:sphere radius:1 density:1\n") + line + "\nend\n";
+        return !readRecording(recording).ok();
+    };
     CHECK(refused("explode at:0,0,0 speed:1 radius:-1"));
     CHECK(refused("explode at:0,0,nan speed:1 radius:1"));
     CHECK(refused("grab body:1 arm:0,0,0"));
+    CHECK_FALSE(refused("grab body:1 arm:0,0,0 target:0,0,0"));
+    CHECK(refused("grab body:2 arm:0,0,0 target:0,0,0"));  // there is none
+    CHECK_FALSE(refused("remove body:1"));
+    CHECK(refused("remove body:99"));
     CHECK_FALSE(refused("explode at:0,0,0 speed:1 radius:1"));
 }

@@ -61,10 +61,14 @@ TEST_CASE("nuts: they fall into the bowl, stay in it, and lie still") {
     CHECK(highest <= start * (1 + 1e-3));
     CHECK(w.energy().kinetic <= 1e-3 * start);
     CHECK(w.maxPenetration() <= 5e-3);
+    MESSAGE("after 3 s kinetic ", w.energy().kinetic, " J of ", start, ", deepest ", w.maxPenetration(), " m");
+    while (w.awake() > 0 && w.time_s() < 20) w.step();
+    CHECK(w.awake() == 0);
+    CHECK(w.maxPenetration() <= 1e-4);
     for (const Body& b : w.bodies()) {
         CAPTURE(b.name);
         CHECK(glm::length(b.position - glm::dvec3{0, 1.2, 0}) < 1.16);  // within the hollow
         CHECK(b.position.y < 0.8);
     }
-    MESSAGE("kinetic ", w.energy().kinetic, " J of ", start, ", deepest ", w.maxPenetration(), " m");
+    MESSAGE("asleep after ", w.time_s(), " s, ", w.maxPenetration(), " m deep");
 }
