@@ -72,7 +72,7 @@ private:
         glm::dvec3 acceleration{0}, turning{0};
         std::uint32_t version = 0;
         int events = 0, slow = 0;  // impacts so far; those of them that nothing approached fast at
-        bool held = false, carried = false;
+        bool held = false, carried = false;  // carried: contacts bear it from the start of the part on
     };
     struct Event {
         double time;

@@ -149,7 +149,7 @@ void Flight::meet(const Event& event) {
     for (const int i : both) {
         if (i == kStatic) continue;
         const auto k = static_cast<std::size_t>(i);
-        if (fast || !paths_[k].carried) paths_[k].turning = {};
+        if (fast || !paths_[k].carried) paths_[k].turning = {};  // else what carries it goes on, as a rim that rolls does
         if (!fast) ++paths_[k].slow;
         if (fast) paths_[k].acceleration = rules_.world.fall();
         if (waits || contacts.empty() || paths_[k].events > kEventsAPart) hold(k);
