@@ -68,24 +68,28 @@ void PhysicsWorld::ballsMidway(std::span<const Contact> start, std::vector<Conta
     }
 }
 
+/// How far a pair's surfaces may get against one another in half a part, m.
+double PhysicsWorld::halfTravelOf(const Contact& c, double h) const {
+    const Body &a = bodies_[slot(c.a)], *b = c.b == kStatic ? nullptr : &bodies_[slot(c.b)];
+    const auto turning = [](const Body& x) { return x.isBall() ? 0 : x.radius * glm::length(x.spin); };
+    return 0.5 * h * (glm::length(b ? a.velocity - b->velocity : a.velocity) + turning(a) + (b ? turning(*b) : 0));
+}
+
 /// Whether the contacts of a pair of which one is a shape are other ones midway.
 bool PhysicsWorld::movesOn(std::span<const Contact> start, double h) const {
     const Contact& c = start[0];
     if (betweenBalls(bodies_, c) || std::ranges::any_of(start, &Contact::way_out)) return false;
-    const Body &a = bodies_[slot(c.a)], *b = c.b == kStatic ? nullptr : &bodies_[slot(c.b)];
-    const auto turning = [](const Body& x) { return x.isBall() ? 0 : x.radius * glm::length(x.spin); };
-    const double inner = b ? std::min(a.inner, b->inner) : a.inner;
-    const double speed = glm::length(b ? a.velocity - b->velocity : a.velocity) + turning(a) + (b ? turning(*b) : 0);
-    return 0.5 * h * speed > kMoves * inner;
+    const double inner = bodies_[slot(c.a)].inner;
+    return halfTravelOf(c, h) > kMoves * (c.b == kStatic ? inner : std::min(inner, bodies_[slot(c.b)].inner));
 }
 
-/// Those contacts, found where the two are midway, as far as gravity alone would close them again. Of `start` those that go on there:
-/// the same gap is aimed at.
+/// Those contacts, found where the two are midway: as far as gravity alone would close them again, and of what is not met in flight as
+/// far as they may get until the end of the part. Of `start` those that go on there: the same gap is aimed at.
 void PhysicsWorld::findMidway(std::span<const Contact> start, double h, std::vector<Contact>& io_midway, StepCounts& io_counts) const {
     const Contact& c = start[0];
     const Body &a = bodies_[slot(c.a)], *b = c.b == kStatic ? nullptr : &bodies_[slot(c.b)];
     const Collider collider(world_, field_, io_counts);
-    const double margin = c.depth + 0.5 * h * bounceSpeed(h);
+    const double margin = c.depth + 0.5 * h * bounceSpeed(h) + (c.flown ? 0 : halfTravelOf(c, h));
     NearStatics unused;
     const std::size_t before = io_midway.size();
     if (b) collider.between(c.a, a, a.shapePose(), c.b, *b, b->shapePose(), margin, io_midway);

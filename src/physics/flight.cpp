@@ -15,6 +15,8 @@ constexpr double kBallNoise = 1e-3, kShapeNoise = 0.25;
 // Of the radius: a ball that was struck on its way, and gets no further before the part ends, meets what it meets then in the next
 // one. Else a fast ball that falls into a pile would be felt through all of it within a part, impact by impact.
 constexpr double kStruck = 0.02;
+// The same of a shape, of half its thickness: less than what is thin, as a shell, may hide.
+constexpr double kStruckShape = 0.005;
 
 glm::dvec3 positionAfter(const Body& b, const glm::dvec3& acceleration, double time) {
     return b.position + time * b.velocity + (0.5 * time * time) * acceleration;
@@ -251,8 +253,8 @@ double Flight::depthOf(std::size_t i, std::size_t j) const {
 
 void Flight::expectStaticOfShape(std::size_t i) {
     const Body& b = bodies_[i];
-    if (!metInFlight(b, rules_)) return;
     const double from = paths_[i].time, to = rules_.duration, speed = fastest(i), stride = kNear * b.inner;
+    if (!metInFlight(b, rules_) && (paths_[i].events == 0 || speed * (to - from) <= kStruckShape * b.inner)) return;
     const ApproachLimits limits{speed, stride, rules_.bounce, depthOf(i, i), kShapeNoise};
     if (rules_.proofs && cannotReach(field_.room(positionAt(i, from), b.radius), to - from, limits, b.radius)) return;
     expect(firstMeeting([&](double t) { return shapeGap(i, i, t, stride); }, from, to, limits), i, i);

@@ -200,6 +200,7 @@ private:
     std::vector<Moment> goMidway(std::span<const int> members, double h);
     void goBack(std::span<const Moment> before);
     void ballsMidway(std::span<const Contact> start, std::vector<Contact>& io_midway);
+    double halfTravelOf(const Contact& c, double h) const;
     bool movesOn(std::span<const Contact> start, double h) const;
     void findMidway(std::span<const Contact> start, double h, std::vector<Contact>& io_midway, StepCounts& io_counts) const;
     std::vector<Contact> atMidway(std::span<const Contact> contacts, double h);

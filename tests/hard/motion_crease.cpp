@@ -184,7 +184,7 @@ TEST_CASE("case 81: energy never grows, and nothing sinks in, whatever the scene
             CHECK(w.bodies().size() == 20);
         }
         CAPTURE(balls);
-        CHECK(most <= 1e-9);
+        CHECK(most <= (balls ? 1e-9 : 1e-6));  // the case asks for 1e-5
         // What lands on another edge in the middle of a step is pushed by the first one until the step ends.
         CHECK(coarse <= (balls ? 1e-9 : 1e-4));
         MESSAGE(std::string_view(balls ? "balls" : "all kinds"), ": most energy gained in a step ", most, " of all, ", coarse, " in steps of 1/30 s, deepest ", deepest);

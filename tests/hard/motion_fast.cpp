@@ -63,20 +63,23 @@ bool staysIn(std::string_view kind, bool round, Random& io_random) {
 
 }  // namespace
 
-TEST_CASE("case 65: of random launches at 10 to 500 m/s none goes through a shell of 1 mm") {
-    // The issue asks for 10,000 of each kind.
+namespace {
+/// The issue asks for 10,000 of each kind.
+void launchAll(std::string_view kind, bool round) {
     const auto launches = static_cast<int>(environmentNumber("TEST_LAUNCHES", 200));
-    for (const std::string_view kind : {"ball", "box"})
-        for (const bool round : {true, false}) {
-            Random random(testSeed());
-            int through = 0;
-            for (int i = 0; i < launches; ++i) through += !staysIn(kind, round, random);
-            CAPTURE(kind); CAPTURE(round);
-            CHECK(through == 0);
-            const std::string_view where = round ? ", round shell: " : ", shell with corners: ";
-            MESSAGE(kind, where, through, " of ", launches, " went through");
-        }
+    Random random(testSeed());
+    int through = 0;
+    for (int i = 0; i < launches; ++i) through += !staysIn(kind, round, random);
+    CHECK(through == 0);
+    MESSAGE(kind, round ? std::string_view(", round shell: ") : std::string_view(", shell with corners: "), through, " of ", launches, " went through");
 }
+}  // namespace
+
+// Cases of their own, so that several may run at once.
+TEST_CASE("case 65: of random launches of balls at 10 to 500 m/s none goes through a round shell of 1 mm") { launchAll("ball", true); }
+TEST_CASE("case 65: of random launches of balls at 10 to 500 m/s none goes through a shell of 1 mm with corners") { launchAll("ball", false); }
+TEST_CASE("case 65: of random launches of cubes at 10 to 500 m/s none goes through a round shell of 1 mm") { launchAll("box", true); }
+TEST_CASE("case 65: of random launches of cubes at 10 to 500 m/s none goes through a shell of 1 mm with corners") { launchAll("box", false); }
 
 TEST_CASE("case 66: a fast body keeps its speed until the wall") {
     for (const std::string_view kind : {"ball", "box"}) {
