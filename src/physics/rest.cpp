@@ -22,14 +22,14 @@ void PhysicsWorld::wakeAndSleep(const Islands& islands) {
     }
 }
 
-/// Moves and turns a body by that, or as much of it as a part of length h allows; leaves in `io_by` what it did.
-void PhysicsWorld::move(Body& io_body, Motion& io_by, double h) {
-    const double length = glm::length(io_by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(io_by.spin));
-    if (!io_body.awake || !(length > 0)) return void(io_by = {});
+/// Moves and turns a body by the share of that which a part of length h allows; returns the share.
+double PhysicsWorld::move(Body& io_body, const Motion& by, double h) {
+    const double length = glm::length(by.velocity) + (io_body.isBall() ? 0 : io_body.radius * glm::length(by.spin));
+    if (!io_body.awake || !(length > 0)) return 0;
     const double most = std::min(kPushOutSpeed * h, 0.25 * io_body.inner), share = length > most ? most / length : 1.0;
-    io_by.velocity *= share, io_by.spin *= share;
-    io_body.position += io_by.velocity;
-    if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, io_by.spin, 1);
+    io_body.position += share * by.velocity;
+    if (!io_body.isBall()) io_body.orientation = turned(io_body.orientation, by.spin, share);
+    return share;
 }
 
 /// The numbers of the bodies of contacts, each once; `scratch_.motion` has a place for each.
@@ -53,7 +53,10 @@ void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
     std::vector<Motion>& moved = scratch_.motion;
     for (const int i : members) moved[slot(i)] = {};
     solve(bodies_, io_contacts, moved, knobs_.iterations, stages_ - Stages{Stage::friction}, counts_);
-    for (const int i : members) move(bodies_[slot(i)], moved[slot(i)], h);
+    for (const int i : members) {
+        const double share = move(bodies_[slot(i)], moved[slot(i)], h);
+        moved[slot(i)].velocity *= share, moved[slot(i)].spin *= share;
+    }
     for (Contact& c : io_contacts) {
         c.push = 0;
         c.gap += glm::dot(relativeVelocity(moved[slot(c.a)], c.b == kStatic ? nullptr : &moved[slot(c.b)], c, has(Stage::spin)), c.normal);

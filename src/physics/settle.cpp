@@ -50,7 +50,7 @@ void PhysicsWorld::settleCrowd(std::span<Contact> contacts, std::span<const std:
     s.crowd.finish(contacts, s.used);
     for (const int i : s.members) {
         Body& b = bodies_[slot(i)];
-        if (Motion by{s.motions.now[slot(i)].getApart(), {}}; parts) move(b, by, h);
+        if (parts) move(b, {s.motions.now[slot(i)].getApart(), {}}, h);
         if (s.used[slot(i)] == 0) continue;
         const Motion m = s.motions.now[slot(i)].get();
         b.velocity = m.velocity;

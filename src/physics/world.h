@@ -190,7 +190,7 @@ private:
         const double deep = -c.gap - 0.5 * c.depth;
         return deep > 0 ? knobs_.push_out * deep : deep;
     }
-    static void move(Body& io_body, Motion& io_by, double h);
+    static double move(Body& io_body, const Motion& by, double h);
     struct Moment {                                            // of a body in a part
         int body;
         glm::dvec3 position;
