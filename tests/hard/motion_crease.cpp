@@ -73,12 +73,15 @@ TEST_CASE("case 78: a cube in a right-angled groove, a capsule along it and a ba
 
 namespace {
 /// What energy a step adds, J, beyond what lifts the heaviest body out of the deepest overlap there is: overlaps are undone.
-double gainOfStep(PhysicsWorld& io_w) {
+/// `io_most`, if asked for: the most that any step added, that included.
+double gainOfStep(PhysicsWorld& io_w, double* io_most = nullptr) {
     double heaviest = 0;
     for (const Body& b : io_w.bodies()) heaviest = std::max(heaviest, b.mass());
     const double before = io_w.energy().total(), lift = kG * heaviest * io_w.maxPenetration();
     io_w.step();
-    return io_w.energy().total() - before - lift;
+    const double gain = io_w.energy().total() - before;
+    if (io_most) *io_most = std::max(*io_most, gain);
+    return gain - lift;
 }
 }  // namespace
 
@@ -168,13 +171,15 @@ Scene anyScene(std::uint64_t seed, double dt, bool balls) {
 
 TEST_CASE("case 81: energy never grows, and nothing sinks in, whatever the scene") {
     for (const bool balls : {true, false}) {
-        double most = 0, coarse = 0, deepest = 0;  // coarse: of steps of 1/30 s
+        double most = 0, coarse = 0, all = 0, deepest = 0;  // coarse: of steps of 1/30 s; all: of the others, what lifts included
         for (std::uint64_t seed = 1; seed <= (balls ? 12 : 24); ++seed) {
             const double dt = seed % 3 == 0 ? 1.0 / 30 : seed % 3 == 1 ? 1.0 / 60 : 1.0 / 240;
             PhysicsWorld w(anyScene(seed, dt, balls));
             const double start = w.energy().total();
             double& gained = dt > 0.02 ? coarse : most;
-            while (w.time_s() < 3) gained = std::max(gained, gainOfStep(w) / start);
+            double gain = 0;
+            while (w.time_s() < 3) gained = std::max(gained, gainOfStep(w, &gain) / start);
+            if (dt <= 0.02) all = std::max(all, gain / start);
             CAPTURE(seed);
             // Five resting depths: a ball squeezed between others. What rolls on edges sinks in as it lands on the next one, by what it turns in
             // a part, and is moved out again.
@@ -184,10 +189,11 @@ TEST_CASE("case 81: energy never grows, and nothing sinks in, whatever the scene
             CHECK(w.bodies().size() == 20);
         }
         CAPTURE(balls);
-        CHECK(most <= (balls ? 1e-9 : 1e-6));  // the case asks for 1e-5
+        CHECK(all <= 1e-5);  // the case
+        CHECK(most <= (balls ? 1e-9 : 1e-6));
         // What lands on another edge in the middle of a step is pushed by the first one until the step ends.
         CHECK(coarse <= (balls ? 1e-9 : 1e-4));
-        MESSAGE(std::string_view(balls ? "balls" : "all kinds"), ": most energy gained in a step ", most, " of all, ", coarse, " in steps of 1/30 s, deepest ", deepest);
+        MESSAGE(std::string_view(balls ? "balls" : "all kinds"), ": most energy gained in a step ", all, " of all, ", most, " of it unlifted, ", coarse, " in steps of 1/30 s, deepest ", deepest);
     }
 }
 
