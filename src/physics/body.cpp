@@ -19,14 +19,13 @@ const OwnSurface& ownOf(const Body& b) {
 }
 }  // namespace
 
-Pairing pairing(const World& world, const Body& body) {
+Pairing ownPairing(const World& world, const Body& body) {
     const OwnSurface& a = ownOf(body);
     return {a.restitution.value_or(world.restitution), a.friction.value_or(world.friction), a.rolling.value_or(world.rolling),
             a.spinning.value_or(world.spinning)};
 }
 
-Pairing pairing(const World& world, const Body& body_a, const Body& body_b) {
-    if (!body_a.own && !body_b.own) return pairing(world);
+Pairing ownPairing(const World& world, const Body& body_a, const Body& body_b) {
     const OwnSurface &a = ownOf(body_a), &b = ownOf(body_b);
     const auto both = [](const std::optional<double>& x, const std::optional<double>& y, double of_world, auto join) {
         return x && y ? join(*x, *y) : x.value_or(y.value_or(of_world));

@@ -62,13 +62,16 @@ struct Pairing {
     double restitution = 0, friction = 0;
     double rolling = 0, spinning = 0;    // m
 };
-/// A body against a static shape: the body's own values, else the world's.
-Pairing pairing(const World& world, const Body& a);
-/// Two bodies: where only one states a value, it counts; where both do, the greater restitution and the geometric mean of the
-/// others; where neither does, the world's.
-Pairing pairing(const World& world, const Body& a, const Body& b);
 /// Of bodies that say nothing.
 inline Pairing pairing(const World& world) { return {world.restitution, world.friction, world.rolling, world.spinning}; }
+/// The same as pairing(), of bodies that say something.
+Pairing ownPairing(const World& world, const Body& a);
+Pairing ownPairing(const World& world, const Body& a, const Body& b);
+/// A body against a static shape: the body's own values, else the world's.
+inline Pairing pairing(const World& world, const Body& a) { return a.own ? ownPairing(world, a) : pairing(world); }
+/// Two bodies: where only one states a value, it counts; where both do, the greater restitution and the geometric mean of the
+/// others; where neither does, the world's.
+inline Pairing pairing(const World& world, const Body& a, const Body& b) { return a.own || b.own ? ownPairing(world, a, b) : pairing(world); }
 
 /// No point of the body's surface, of those it shows to what it meets, is made faster than this by its turning, m/s, as long as it turns
 /// freely: angular momentum and energy, which it keeps, bound its spin about each axis of its frame, and its box how far a point lies from

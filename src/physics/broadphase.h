@@ -16,9 +16,9 @@ struct Reach {
 };
 
 /// Every pair (i < j) of those that overlap, sorted: the same set as comparing each with each. Bodies of about one size lie in
-/// rows along x, as wide as the largest of them, and look along the rows around theirs, there and among those of every larger size,
-/// so that the work grows with the bodies and the pairs (a hierarchical grid, swept along one axis; Ericson, "Real-Time Collision
-/// Detection", 2005, sections 7.2 and 7.5).
+/// rows along x, as wide as the largest of them, and look along the rows around theirs, and along those within their reach of every
+/// lesser size, so that the work grows with the bodies and the pairs (a hierarchical grid, swept along one axis; Ericson, "Real-Time
+/// Collision Detection", 2005, sections 7.2 and 7.5).
 std::vector<std::pair<int, int>> overlappingPairs(std::span<const Reach> bodies);
 
 /// The pairs that may meet for some time: found once, and good for as long as every body stays within the reach it was given

@@ -37,7 +37,7 @@ template <bool drags, bool parts> MB_INLINE void store(const LaneEnds& ends, Lan
 }
 
 /// Does something with the row of each batch, and its two sides.
-template <bool drags, bool parts, class Do> MB_INLINE void visit(std::vector<Crowd::Batch>& io_batches, LaneMotion* io_motion, Do what) {
+template <bool drags, bool parts, class Do> MB_INLINE void visit(std::span<Crowd::Batch> io_batches, LaneMotion* io_motion, Do what) {
     for (Crowd::Batch& batch : io_batches) {
         LaneEnds a, b;
         load<drags, parts>(io_motion, batch.a, a), load<drags, parts>(io_motion, batch.b, b);
@@ -67,7 +67,7 @@ template <bool drags, bool parts> MB_INLINE void goOnBodies(std::span<const int>
 
 /// The displacements are solved for as velocities are, in the same rounds, without friction.
 template <bool drags, bool parts>
-MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+MB_INLINE int roundsOf(std::span<Crowd::Batch> io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     using Batch = Crowd::Batch;
     LaneMotion* const motion = io_motions.now.data();
     const auto apply = [](Batch&, Row& row, LaneEnds& a, LaneEnds& b) MB_INLINE_CALL { applyFirst<drags>(row, a, b); };
@@ -95,14 +95,14 @@ MB_INLINE int roundsOf(std::vector<Crowd::Batch>& io_batches, std::span<const in
     }
 }
 
-using Rounds = int (*)(std::vector<Crowd::Batch>&, std::span<const int>, Crowd::Motions&, int);
+using Rounds = int (*)(std::span<Crowd::Batch>, std::span<const int>, Crowd::Motions&, int);
 template <bool drags, bool parts>
-int plainRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+int plainRounds(std::span<Crowd::Batch> io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     return roundsOf<drags, parts>(io_batches, balls, io_motions, rounds);
 }
 #if defined(__x86_64__)
 template <bool drags, bool parts>
-[[gnu::target("avx2")]] int wideRounds(std::vector<Crowd::Batch>& io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
+[[gnu::target("avx2")]] int wideRounds(std::span<Crowd::Batch> io_batches, std::span<const int> balls, Crowd::Motions& io_motions, int rounds) {
     return roundsOf<drags, parts>(io_batches, balls, io_motions, rounds);
 }
 #endif
@@ -132,20 +132,21 @@ void Crowd::set(const Motions& motions, std::span<const Contact> contacts, std::
     }
     // Where each colour's batches begin, and how many lanes of its last are taken.
     std::array<std::uint32_t, kColours> lane{};
-    std::uint32_t batches = 0;
+    std::uint32_t count = 0;
     for (std::size_t k = 0; k < kColours; ++k) {
-        const std::uint32_t count = begin[k + 1], each = k + 1 < kColours ? kLanes : 1;
-        lane[k] = kLanes * batches;
-        batches += (count + each - 1) / each;
+        const std::uint32_t each = k + 1 < kColours ? kLanes : 1;
+        lane[k] = kLanes * count;
+        count += (begin[k + 1] + each - 1) / each;
     }
-    batches_.resize(batches);
-    for (Batch& batch : batches_) batch.contact.fill(kNone);
+    count_ = count;
+    if (batches_.size() < count_) batches_.resize(count_);
+    for (Batch& batch : batches()) batch.contact.fill(kNone);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t colour = colours_[i];
         batches_[lane[colour] / kLanes].contact[lane[colour] % kLanes] = numbers[i];
         lane[colour] += colour + 1 < kColours ? 1 : kLanes;
     }
-    for (Batch& batch : batches_) fill(batch, motions, contacts, apart);
+    for (Batch& batch : batches()) fill(batch, motions, contacts, apart);
 }
 
 /// Sets what a batch knows of its contacts and their bodies. Where there is no contact, nothing is moved by anything.
@@ -175,11 +176,11 @@ void Crowd::fill(Batch& io_batch, const Motions& motions, std::span<const Contac
 int Crowd::solve(std::span<const int> balls, Motions& io_motions, int rounds, bool drags, bool parts) {
     static const std::array<Rounds, 4> kRounds{fastestRounds<false, false>(), fastestRounds<false, true>(), fastestRounds<true, false>(),
                                                fastestRounds<true, true>()};
-    return kRounds[(drags ? 2 : 0) + (parts ? 1 : 0)](batches_, balls, io_motions, rounds);
+    return kRounds[(drags ? 2 : 0) + (parts ? 1 : 0)](batches(), balls, io_motions, rounds);
 }
 
 void Crowd::finish(std::span<Contact> contacts, std::vector<std::uint64_t>& out_marks) const {
-    for (const Batch& batch : batches_)
+    for (const Batch& batch : std::span(batches_).first(count_))
         for (int l = 0; l < kLanes; ++l) {
             const auto k = static_cast<std::size_t>(l);
             if (batch.contact[k] == kNone) continue;

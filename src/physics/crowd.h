@@ -54,7 +54,10 @@ public:
 private:
     static void fill(Batch& io_batch, const Motions& motions, std::span<const Contact> contacts, std::span<const double> apart);
 
-    std::vector<Batch> batches_;
+    std::span<Batch> batches() { return std::span(batches_).first(count_); }
+
+    std::vector<Batch> batches_;                           // of the island, and behind them what larger ones needed
+    std::size_t count_ = 0;                                // of the island's
     std::vector<std::uint8_t> colours_;                    // of the contacts
 };
 

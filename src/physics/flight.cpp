@@ -35,9 +35,10 @@ Flight::Flight(std::vector<Body>& bodies, std::vector<NearStatics>& near, const 
                std::span<const Motion> accelerations, std::span<const std::pair<int, int>> pairs, StepCounts& io_counts)
     : bodies_(bodies), near_(near), field_(field), rules_(rules), counts_(io_counts), collider_(rules.world, field, io_counts),
       paths_(bodies.size()), pairs_(pairs) {
+    const glm::dvec3 fall = rules.world.fall();
     for (std::size_t i = 0; i < bodies.size(); ++i)
         paths_[i].acceleration = accelerations[i].velocity, paths_[i].turning = accelerations[i].spin,
-        paths_[i].carried = bodies[i].awake && accelerations[i].velocity != rules.world.fall();
+        paths_[i].carried = bodies[i].awake && accelerations[i].velocity != fall;
 }
 
 /// Where each body may get within the part, and whom it may meet there: before anything is advanced.

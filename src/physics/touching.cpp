@@ -105,7 +105,7 @@ void PhysicsWorld::touchBodies(const FlightRules& rules) {
         reach.push_back({b.position, b.radius + restDepth(b.inner) + scratch_.travel[i]});
     }
     std::vector<std::pair<int, int>>& near = scratch_.near;
-    near.resize(pairs_.pairs().size());
+    near.resize(std::max(near.size(), pairs_.pairs().size()));
     std::size_t count = 0;
     for (const auto& [i, j] : pairs_.pairs()) {
         const Reach &a = reach[static_cast<std::size_t>(i)], &b = reach[static_cast<std::size_t>(j)];
@@ -113,8 +113,7 @@ void PhysicsWorld::touchBodies(const FlightRules& rules) {
         const double most = a.reach + b.reach;
         near[count] = {i, j}, count += glm::dot(apart, apart) <= most * most;  // no branch, which would be guessed wrong
     }
-    near.resize(count);
-    findAll(near.size(), [&](std::size_t k, Found& io_found) { touchPair(near[k].first, near[k].second, rules, io_found); });
+    findAll(count, [&](std::size_t k, Found& io_found) { touchPair(near[k].first, near[k].second, rules, io_found); });
 }
 
 void PhysicsWorld::touchPair(int i, int j, const FlightRules& rules, Found& io_found) {

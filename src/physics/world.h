@@ -131,7 +131,7 @@ private:
         std::vector<std::uint32_t> ids;                        // of every body: its object's
         std::vector<double> travel;                            // of every body: how far a point of it may get in the part, m
         std::vector<Reach> reach;
-        std::vector<std::pair<int, int>> near;                 // the pairs that may touch
+        std::vector<std::pair<int, int>> near;                 // the pairs that may touch, and room for more
         std::vector<char> taken;                               // of every impulse kept
         Scratch() = default;
         Scratch(const Scratch&) {}
