@@ -177,7 +177,8 @@ bool Settler::stand(Candidate& io_c, Footing& io_footing) const {
     return false;
 }
 
-/// By Newton's steps onto the two faces, each read a little to its side of the edge. (On a face beside a rim the own field is 0 too.)
+/// By Newton's steps onto the two faces, each read a little to its side of the edge. (On a face beside a rim the own field is 0 too; and
+/// past the edge's end, where the two planes go on without the shape, it is not.)
 bool Settler::standOnEdge(Candidate& io_c, Footing& io_footing) const {
     const double on = kWorth * io_c.fineness();
     for (const double share : kAcross) {
@@ -194,7 +195,7 @@ bool Settler::standOnEdge(Candidate& io_c, Footing& io_footing) const {
         const double det = ss * tt - st * st;
         if (!(det > 1e-3 * ss * tt)) continue;  // both are on one face
         io_c.at -= ((s.distance * tt - t.distance * st) / det) * s.gradient + ((t.distance * ss - s.distance * st) / det) * t.gradient;
-        if (std::fabs(s.distance) <= on && std::fabs(t.distance) <= on) return true;
+        if (std::fabs(s.distance) <= on && std::fabs(t.distance) <= on) break;
         const glm::dvec3 along = glm::normalize(glm::cross(s.gradient, t.gradient));
         io_footing.along = glm::dot(along, io_footing.along) < 0 ? -along : along;
         io_footing.first = s.gradient / std::sqrt(ss), io_footing.second = t.gradient / std::sqrt(tt);

@@ -70,9 +70,9 @@ void PhysicsWorld::ballsMidway(std::span<const Contact> start, std::vector<Conta
 
 /// How far a pair's surfaces may get against one another in half a part, m.
 double PhysicsWorld::halfTravelOf(const Contact& c, double h) const {
-    const Body &a = bodies_[slot(c.a)], *b = c.b == kStatic ? nullptr : &bodies_[slot(c.b)];
-    const auto turning = [](const Body& x) { return x.isBall() ? 0 : x.radius * glm::length(x.spin); };
-    return 0.5 * h * (glm::length(b ? a.velocity - b->velocity : a.velocity) + turning(a) + (b ? turning(*b) : 0));
+    const FlightRules half = rulesFor(0.5 * h);
+    const Body& a = bodies_[slot(c.a)];
+    return c.b == kStatic ? travelOf(a, half) : travelBetween(a, bodies_[slot(c.b)], half);
 }
 
 /// Whether the contacts of a pair of which one is a shape are other ones midway.
@@ -165,7 +165,7 @@ void PhysicsWorld::aim(Contact& io_c, double h) const {
 }
 
 /// Adds what the contacts a body rests on do to it through the part, and returns them with their impulses. Of a body that nothing
-/// carries the acceleration stays gravity itself: the quotient would round it.
+/// pushes the acceleration stays gravity itself: the quotient would round it, and what is given no spin turns at once, not by halves.
 std::vector<Contact> PhysicsWorld::carry(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations) {
     for (Contact& c : contacts) {
         const glm::dvec3 v = relativeVelocity(bodies_, c, has(Stage::spin));
@@ -178,10 +178,12 @@ std::vector<Contact> PhysicsWorld::carry(std::span<Contact> contacts, double h, 
     std::vector<Motion>& after = scratch_.motion;
     for (const int i : members) after[slot(i)] = {bodies_[slot(i)].velocity + world_.fall() * h, bodies_[slot(i)].spin};
     solveResisting(bodies_, midway, after, knobs_.iterations, stages_, counts_);
-    for (const int i : members) {
-        const Body& b = bodies_[slot(i)];
-        io_accelerations[slot(i)] = {(after[slot(i)].velocity - b.velocity) / h, (after[slot(i)].spin - b.spin) / h};
-    }
+    for (const Contact& c : midway)
+        for (const int i : {c.a, c.b}) {
+            if (c.push == 0 || i == kStatic) continue;
+            const Body& b = bodies_[slot(i)];
+            io_accelerations[slot(i)] = {(after[slot(i)].velocity - b.velocity) / h, (after[slot(i)].spin - b.spin) / h};
+        }
     goBack(start);
     return midway;
 }

@@ -28,7 +28,13 @@ double movedBetween(const Pose& x, const Pose& y, double radius) {
 void ManifoldMemory::begin() {
     last_ = std::move(now_);
     now_.clear();
-    std::sort(last_.begin(), last_.end(), before);  // no two are equal
+}
+
+void ManifoldMemory::end(std::span<const std::uint32_t> asleep) {
+    const auto sleeps = [&](std::uint32_t object) { return object == 0 || std::ranges::binary_search(asleep, object); };
+    for (Entry& e : last_)
+        if (!e.taken && sleeps(e.a) && sleeps(e.b)) now_.push_back(std::move(e));
+    std::ranges::sort(now_, before);  // no two are equal
 }
 
 ManifoldMemory::Entry* ManifoldMemory::lastOf(std::uint32_t a, std::uint32_t b) {
@@ -49,17 +55,15 @@ const ManifoldMemory::Entry* ManifoldMemory::Share::follow(std::uint32_t a, std:
     const double moved = movedBetween(last->found, seenFrom(pose_b, pose_a), radius);
     if (moved > last->slack || margin + moved > last->reach) return nullptr;
     found_.push_back(std::move(*last));
+    last->taken = true;
     return &found_.back();
-}
-
-void ManifoldMemory::Share::keep(std::uint32_t a, std::uint32_t b) {
-    if (Entry* last = memory_->lastOf(a, b)) found_.push_back(std::move(*last));
 }
 
 const ManifoldMemory::Entry& ManifoldMemory::Share::remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack,
                                                       const Manifold& found) {
+    if (Entry* last = memory_->lastOf(a, b)) last->taken = true;
     // Where there are no points, none comes before the room is used up, however far that is.
-    Entry entry{a, b, seenFrom(pose_b, pose_a), found.points.empty() ? std::max(slack, found.room) : slack, found.room, {}};
+    Entry entry{a, b, seenFrom(pose_b, pose_a), found.points.empty() ? std::max(slack, found.room) : slack, found.room};
     for (const ManifoldPoint& p : found.points)
         entry.points.push_back({pose_a.fromWorld(p.point), pose_b.fromWorld(p.point - p.gap * p.normal), p.normal * pose_b.rotation, p.feature});
     found_.push_back(std::move(entry));

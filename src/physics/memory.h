@@ -21,7 +21,8 @@ public:
         Pose found;
         double slack = 0;                  // m: what no point of a may have moved by against b, for them to hold
         double reach = 0;                  // m: how far apart the shapes were looked at
-        std::vector<FollowedPoint> points;
+        bool taken = false;                // it, or what was found instead, is of the next part
+        std::vector<FollowedPoint> points = {};
     };
 
     /// What is found of some pairs in a part, to be added to the memory. Several may be filled at once, each by a thread of its own, as
@@ -32,8 +33,6 @@ public:
         /// The pair's points, if they still are all there are within the margin; null: they must be looked for anew. `radius`: of a
         /// about its frame's origin.
         const Entry* follow(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double radius, double margin);
-        /// Keeps the pair's entry as it is: of one that sleeps.
-        void keep(std::uint32_t a, std::uint32_t b);
         /// Keeps what was found; points hold for as long as nothing has moved by the slack.
         const Entry& remember(std::uint32_t a, std::uint32_t b, const Pose& pose_a, const Pose& pose_b, double slack, const Manifold& found);
 
@@ -43,9 +42,11 @@ public:
         std::vector<Entry> found_;
     };
 
-    /// Begins a part: what is not added will be forgotten at the next.
+    /// Begins a part: what is not added until its end will be forgotten.
     void begin();
     void add(Share&& share);
+    /// Keeps what was not asked for of those that sleep, too. `asleep`: their ids, sorted.
+    void end(std::span<const std::uint32_t> asleep);
     void addTo(StateHash& io_hash) const;
     void forget(std::uint32_t object);
     void clear() { last_.clear(), now_.clear(); }
@@ -55,7 +56,7 @@ public:
 private:
     Entry* lastOf(std::uint32_t a, std::uint32_t b);
 
-    std::vector<Entry> last_, now_;        // last_: sorted
+    std::vector<Entry> last_, now_;        // sorted; now_: from the end of a part on
 };
 
 /// Where the point of an entry is now: on a, in the world; the normal, and the gap along it.

@@ -18,8 +18,17 @@ std::span<Contact> PhysicsWorld::touching(double h) {
     for (const Body& b : bodies_) scratch_.travel.push_back(b.awake ? travelOf(b, rules) : 0), scratch_.ids.push_back(b.object.value);
     if (has(Stage::static_contacts)) findAll(bodies_.size(), [&](std::size_t i, Found& io_found) { touchStatics(i, rules, io_found); });
     if (has(Stage::broad_phase)) touchBodies(rules);
-    if (!allBalls()) noteWaysOut();
+    if (!allBalls()) remember(), noteWaysOut();
     return scratch_.found;
+}
+
+/// Of what sleeps nothing is asked, and nothing is forgotten.
+void PhysicsWorld::remember() {
+    std::vector<std::uint32_t> asleep;
+    for (const Body& b : bodies_)
+        if (!b.awake) asleep.push_back(b.object.value);
+    std::ranges::sort(asleep);
+    memory_.end(asleep);
 }
 
 void PhysicsWorld::noteWaysOut() {
@@ -55,7 +64,7 @@ template <class Find> void PhysicsWorld::findAll(std::size_t count, Find find) {
 
 void PhysicsWorld::touchStatics(std::size_t i, const FlightRules& rules, Found& io_found) {
     const Body& b = bodies_[i];
-    if (!b.awake) return io_found.memory.keep(b.object.value, 0);
+    if (!b.awake) return;
     const double travel = scratch_.travel[i];
     const bool flown = metInFlight(b, rules, travel);
     const double ahead = restDepth(b.inner) + (flown ? 0 : travel);

@@ -159,6 +159,7 @@ private:
     FlightRules rulesFor(double h) const { return {world_, h, bounceSpeed(h), stages_, choice_.proofs}; }
     bool allBalls() const { return shapes_ == 0; }
     std::span<Contact> touching(double h);
+    void remember();
     void noteWaysOut();
     struct Found {                                             // of some bodies or pairs, by one thread
         std::vector<Contact> contacts;

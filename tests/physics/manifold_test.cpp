@@ -230,3 +230,32 @@ TEST_CASE("every contact's place is on the surface it belongs to, at a tray's ri
     }
     CHECK(touching > 200);
 }
+
+TEST_CASE("no contact lies on an edge that was cut away") {
+    // A nut: a ball cuts its prism's edges short, and those between the sides down to a point each. Their planes go on.
+    Scene s;
+    add(s, "subtract", {}, {});
+    add(s, "intersect", {}, {}, 0);
+    add(s, "prism", {}, {6, 0.24, 0.2}, 1);
+    add(s, "sphere", {}, {0.24}, 1);
+    add(s, "cylinder", {}, {0.11, 0.6, 0}, 0);
+    const Solid nut = makeSolid(makeTree(s), true), other = solidOf("box", {0.4, 0.4, 0.4, 0});
+    Random random(5);
+    int touching = 0;
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto any = [&](double x) { return glm::dvec3{random.in(-x, x), random.in(-x, x), random.in(-x, x)}; };
+        const glm::dvec3 way = glm::normalize(any(1));
+        const Placed a{&nut, turnedBy(random.in(0.3, 0.5) * way, any(3)), 0}, b{i % 2 ? &nut : &other, turnedBy({}, any(3)), 0};
+        std::uint64_t evaluations = 0;
+        const Manifold found = manifold(a, {&b, 1}, i % 3 ? 1e-3 : 0, evaluations);
+        touching += !found.points.empty();
+        for (const ManifoldPoint& p : found.points) {
+            const Placed& owner = p.feature >> 63 ? b : a;
+            worst = std::max(worst, std::fabs(owner.solid->at(owner.pose.fromWorld(p.point))));
+        }
+    }
+    CHECK(touching > 1000);
+    CHECK(worst < 1e-4);  // a thousandth of how far points of the surface are apart
+    MESSAGE(touching, " touch, a contact lies off its surface by ", worst, " m at most");
+}
