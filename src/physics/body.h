@@ -26,6 +26,7 @@ struct alignas(64) Body {
     std::shared_ptr<const OwnSurface> own;  // none: it says nothing
     ObjectId object;
     int still = 0;                       // parts of steps it has been still for
+    int stuck = 0;                       // the same, for how many it has been deep in another
     bool awake = true;
     glm::dmat3 inverse_inertia{0};       // of the inertia
     glm::dmat3 inertia{0};               // kg·m², about the centre of mass, in the body's frame

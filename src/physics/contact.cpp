@@ -76,6 +76,16 @@ void solveIslands(std::span<const Body> bodies, std::span<Contact> contacts, std
     }
 }
 
+/// How far to go from a motion towards another for no more than that energy, 0 to 1: kinetic energies of the first, the other, and half-way.
+double shareWithin(double energy, double of_first, double half_way, double of_other) {
+    if (of_other <= energy) return 1;
+    if (of_first >= energy) return 0;
+    // The parabola through the three; it is convex.
+    const double square = 2 * (of_first - 2 * half_way + of_other), slope = 4 * half_way - 3 * of_first - of_other, off = energy - of_first;
+    const double root = std::sqrt(std::max(slope * slope + 4 * square * off, 0.0));
+    return std::clamp(slope > 0 ? 2 * off / (slope + root) : (root - slope) / (2 * square), 0.0, 1.0);
+}
+
 }  // namespace
 
 int roundsFor(std::size_t contacts, int rounds) {
@@ -131,6 +141,33 @@ void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<
     const auto rows = spins ? (drags ? solveIslands<true, true> : solveIslands<true, false>)
                             : (drags ? solveIslands<false, true> : solveIslands<false, false>);
     rows(bodies, contacts, motion, rounds, io_counts);
+}
+
+void temper(std::span<const Body> bodies, std::span<const Contact> contacts, std::span<const int> members, double most, std::span<Motion> io_motion,
+            int rounds, Stages stages, StepCounts& io_counts) {
+    const auto energy = [&] {
+        double sum = 0;
+        for (const int i : members) sum += kineticEnergy(bodies[slot(i)], io_motion[slot(i)]);
+        return sum;
+    };
+    const double bounced = energy();
+    if (bounced <= most) return;
+    std::vector<Contact> dead(contacts.begin(), contacts.end());
+    for (Contact& c : dead) c.target = std::min(c.target, 0.0), c.push = c.twist = 0, c.drag = {};
+    std::vector<Motion> full;
+    for (const int i : members) full.push_back(io_motion[slot(i)]), io_motion[slot(i)] = motionOf(bodies[slot(i)]);
+    solve(bodies, dead, io_motion, rounds, stages, io_counts);
+    std::vector<Motion> none;
+    for (const int i : members) none.push_back(io_motion[slot(i)]);
+    const auto go = [&](double share) {
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            io_motion[slot(members[k])] = {none[k].velocity + share * (full[k].velocity - none[k].velocity),
+                                           none[k].spin + share * (full[k].spin - none[k].spin)};
+        }
+    };
+    const double first = energy();
+    go(0.5);
+    go(shareWithin(most, first, energy(), bounced));
 }
 
 }  // namespace mb

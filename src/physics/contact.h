@@ -56,4 +56,10 @@ int roundsFor(std::size_t contacts, int rounds);
 void solve(std::span<const Body> bodies, std::span<Contact> contacts, std::span<Motion> motion, int rounds, Stages stages,
            StepCounts& io_counts);
 
+/// Newton's restitution with Coulomb's friction can make energy, of one contact too (Brogliato, "Nonsmooth Mechanics", 1999). Brings the
+/// motions that `members` have after such impacts back to an energy of no more than `most`, J: as far as needed towards those without
+/// restitution, which make none. The impulses between are within friction's cone too.
+void temper(std::span<const Body> bodies, std::span<const Contact> contacts, std::span<const int> members, double most, std::span<Motion> io_motion,
+            int rounds, Stages stages, StepCounts& io_counts);
+
 }  // namespace mb

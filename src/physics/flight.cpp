@@ -17,6 +17,7 @@ constexpr double kBallNoise = 1e-3, kShapeNoise = 0.25;
 constexpr double kStruck = 0.02;
 // The same of a shape, of half its thickness: less than what is thin, as a shell, may hide.
 constexpr double kStruckShape = 0.005;
+constexpr double kWider = 8;  // times as far is looked where a shape meets nothing
 
 glm::dvec3 positionAfter(const Body& b, const glm::dvec3& acceleration, double time) {
     return b.position + time * b.velocity + (0.5 * time * time) * acceleration;
@@ -216,19 +217,29 @@ void Flight::expectPair(std::size_t i, std::size_t j) {
 
 /// The gap of a shape to what does not move (j = i), or of two bodies of which one is a shape.
 GapAt Flight::shapeGap(std::size_t i, std::size_t j, double t, double margin) {
-    const Pose at = poseAt(i, t);
+    const bool alone = i == j;
+    const Pose at = poseAt(i, t), other = alone ? Pose{} : poseAt(j, t);
+    const double room = alone ? field_.room(at.position, bodies_[i].radius)
+                              : glm::length(at.position - other.position) - bodies_[i].radius - bodies_[j].radius;
+    if (room > margin) return {room, 0, false};
     std::vector<Contact> contacts;
-    if (i == j) {
-        const double room = field_.room(at.position, bodies_[i].radius);
-        if (room > margin) return {room, 0, false};
-        collider_.withStatics(static_cast<int>(i), bodies_[i], at, margin, near_[i], contacts);
-    } else {
-        const Pose other = poseAt(j, t);
-        const double room = glm::length(at.position - other.position) - bodies_[i].radius - bodies_[j].radius;
-        if (room > margin) return {room, 0, false};
-        collider_.between(static_cast<int>(i), bodies_[i], at, static_cast<int>(j), bodies_[j], other, margin, contacts);
+    const auto look = [&](double within) {
+        if (alone) collider_.withStatics(static_cast<int>(i), bodies_[i], at, within, near_[i], contacts);
+        else collider_.between(static_cast<int>(i), bodies_[i], at, static_cast<int>(j), bodies_[j], other, within, contacts);
+    };
+    look(margin);
+    if (contacts.empty()) {
+        // What is much thinner than wide would take thousands of strides through an empty room.
+        const double smaller = alone ? bodies_[i].radius : std::min(bodies_[i].radius, bodies_[j].radius);
+        const double ahead = std::min((fastest(i) + (alone ? 0 : fastest(j))) * (rules_.duration - t), 0.25 * smaller);
+        double free = margin;
+        for (double within = kWider * margin; within < ahead; within *= kWider) {
+            look(within);
+            if (!contacts.empty()) break;
+            free = within;
+        }
+        return {free, 0, false};
     }
-    if (contacts.empty()) return {margin, 0, false};
     // Of points that touch at once the one approached fastest tells, else the nearest.
     GapAt g{INFINITY, 0, true};
     for (const Contact& c : contacts) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace mb {
 namespace {
@@ -54,8 +55,8 @@ double Flight::energyOf(int i) const {
 }
 
 /// Newton's law of impact at every contact at once, with Coulomb's friction. No energy is made: where several contacts with
-/// restitution would make some together (as that law can; Brogliato, "Nonsmooth Mechanics", 1999), only the hardest counts
-/// now, which alone makes none, and the others are met next. Says whether an approach was fast.
+/// restitution would make some together, only the hardest counts now, and the others are met next; where that one makes some still, its
+/// restitution is less. Says whether an approach was fast.
 bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
     const auto load = [&](int i) {
         if (i != kStatic) motion_[static_cast<std::size_t>(i)] = motionOf(bodies_[static_cast<std::size_t>(i)]);
@@ -71,11 +72,14 @@ bool Flight::bounceApart(std::vector<Contact>& contacts, int a, int b) {
     }
     const bool fast = hardest < contacts.size();
     solve(bodies_, contacts, motion_, kImpactRounds, rules_.stages, counts_);
-    if (fast && energyOf(a) + energyOf(b) > before * (1 + 1e-9)) {  // more than the rounds leave unsolved
+    const double most = before * (1 + 1e-9);  // more than the rounds leave unsolved
+    if (fast && energyOf(a) + energyOf(b) > most) {
         load(a), load(b);
         Contact alone = contacts[hardest];
         alone.push = 0, alone.drag = {}, alone.twist = 0;
-        solve(bodies_, {&alone, 1}, motion_, 1, rules_.stages, counts_);
+        solve(bodies_, {&alone, 1}, motion_, kImpactRounds, rules_.stages, counts_);
+        const std::array both{a, b};
+        temper(bodies_, {&alone, 1}, std::span(both).first(b == kStatic ? 1 : 2), most, motion_, kImpactRounds, rules_.stages, counts_);
     }
     for (const int i : {a, b}) {
         if (i == kStatic) continue;

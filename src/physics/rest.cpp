@@ -2,6 +2,7 @@
 #include "core/effects/effect.h"
 #include "physics/world.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -66,24 +67,37 @@ void PhysicsWorld::pushApart(std::span<Contact> io_contacts, double h) {
 /// Ends approaches, all at once: those too slow to bounce; and of what is not met in flight, those that would cross the gap
 /// within the part, which part again with the restitution.
 void PhysicsWorld::stopApproaches(std::span<Contact> contacts, double h) {
-    bool any = false;
+    bool any = false, bounced = false;
     const FlightRules rules = rulesFor(h);
     for (Contact& c : contacts) {
         const double approach = -glm::dot(relativeVelocity(bodies_, c, has(Stage::spin)), c.normal);
         c.target = 0;
         if (!c.flown) {
             const bool bounces = has(Stage::restitution) && c.pairing.restitution > 0 && approach > rules.bounce && c.gap < approach * h;
-            if (bounces) ++counts_.bounces;
+            if (bounces) ++counts_.bounces, bounced = true;
             c.target = bounces ? c.pairing.restitution * approach : -std::max(c.gap, 0.0) / h;
         }
         any = any || approach > 1e-12 - c.target;
     }
     if (!any) return;
-    const std::span<const int> members = membersOf(contacts);
     std::vector<Motion>& motion = scratch_.motion;
-    for (const int i : members) motion[slot(i)] = motionOf(bodies_[slot(i)]);
+    for (const int i : membersOf(contacts)) motion[slot(i)] = motionOf(bodies_[slot(i)]);
     solve(bodies_, contacts, motion, knobs_.iterations, stages_, counts_);
-    for (const int i : members) bodies_[slot(i)].velocity = motion[slot(i)].velocity, bodies_[slot(i)].spin = motion[slot(i)].spin;
+    if (bounced) temperIslands(contacts);
+    for (const int i : membersOf(contacts)) bodies_[slot(i)].velocity = motion[slot(i)].velocity, bodies_[slot(i)].spin = motion[slot(i)].spin;
+}
+
+/// Of each island where something bounced.
+void PhysicsWorld::temperIslands(std::span<const Contact> contacts) {
+    for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
+        while (end < contacts.size() && contacts[end].island == contacts[begin].island) ++end;
+        const std::span<const Contact> island = contacts.subspan(begin, end - begin);
+        if (std::ranges::none_of(island, [](const Contact& c) { return c.target > 0; })) continue;
+        const std::span<const int> members = membersOf(island);
+        double energy = 0;
+        for (const int i : members) energy += kineticEnergy(bodies_[slot(i)], motionOf(bodies_[slot(i)]));
+        temper(bodies_, island, members, energy * (1 + 1e-9), scratch_.motion, knobs_.iterations, stages_, counts_);
+    }
 }
 
 /// Whether an impulse kept from the last part is this contact's: found from the same point, or at about the same place. Of a ball
@@ -175,6 +189,21 @@ std::vector<Motion> PhysicsWorld::falling() const {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (bodies_[i].awake) accelerations[i].velocity = fall;
     return accelerations;
+}
+
+/// Names those that have been deep in another for two seconds: pushing out does not part them.
+void PhysicsWorld::noteStuck(std::span<const Contact> contacts, double h) {
+    constexpr double kDeep = 0.1, kLong = 2;  // of half the thinner thickness; s
+    std::vector<const Contact*> deep(bodies_.size(), nullptr);
+    for (const Contact& c : contacts)
+        if (-c.gap > kDeep * std::min(bodies_[slot(c.a)].inner, c.b == kStatic ? INFINITY : bodies_[slot(c.b)].inner)) deep[slot(c.a)] = &c;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        Body& b = bodies_[i];
+        b.stuck = deep[i] ? b.stuck + 1 : 0;
+        if (b.stuck != static_cast<int>(std::ceil(kLong / h))) continue;
+        const int other = deep[i]->b;
+        note(fmt::format("{}: is not parted from {}, in which it has been deep for {} s", b.name, other == kStatic ? "what does not move" : bodies_[slot(other)].name, kLong));
+    }
 }
 
 /// Counts for how long each body that touches something has been still: slower than `sleep_speed`; without gravity only rest

@@ -60,7 +60,7 @@ void PhysicsWorld::part(double h) {
     const std::vector<Motion> accelerations = rest(contacts, islands, h);
     if (has(Stage::flight)) fly(accelerations, h);
     pairs_.pass(h);
-    if (has(Stage::sleeping)) countStill(contacts, h);
+    if (has(Stage::sleeping)) countStill(contacts, h), noteStuck(contacts, h);
     leaveOut();
 }
 
@@ -153,7 +153,10 @@ void PhysicsWorld::leaveOut() {
     };
     if (std::ranges::all_of(bodies_, inside)) return;
     freezeBroken();
-    removeWhere([&](const Body& b) { return glm::dot(b.position, b.position) > bounds; });
+    const auto left = [&](const Body& b) { return glm::dot(b.position, b.position) > bounds; };
+    for (const Body& b : bodies_)
+        if (left(b)) note(fmt::format("{}: removed at {} s, beyond the bounds of {} m", b.name, time_s(), world_.bounds));
+    removeWhere(left);
 }
 
 /// Puts bodies whose state is no number back to where they last were, and aside.

@@ -181,6 +181,7 @@ private:
     void wakeAndSleep(const Islands& islands);
     void pushApart(std::span<Contact> io_contacts, double h);
     void stopApproaches(std::span<Contact> contacts, double h);
+    void temperIslands(std::span<const Contact> contacts);
     std::vector<Contact> carry(std::span<Contact> contacts, double h, std::span<Motion> io_accelerations);
     void settleCrowds(std::span<Contact> contacts, std::span<const std::uint32_t> numbers, double h, std::span<Motion> io_accelerations);
     double aimCrowd(Contact& io_c, const FlightRules& rules);
@@ -217,6 +218,7 @@ private:
     void keep(std::span<const Contact> carried, std::span<const Contact> contacts, std::span<const std::uint32_t> settled);
     void findKept();
     void countStill(std::span<const Contact> contacts, double h);
+    void noteStuck(std::span<const Contact> contacts, double h);
     void setMotionOf(Body& io_body, glm::dvec3 velocity, glm::dvec3 spin);
     void pullGrabbed(double h);
     void tame();

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 
 using namespace mb;
 using namespace mb::test;
@@ -235,5 +236,35 @@ TEST_CASE("case 81: coins, plates, a cup and a rattleback that roll and wobble g
         CHECK(w.held() <= 5);  // about to lie down flat it may strike its rim more often than is followed
         MESSAGE(wobbler.name, ": most energy gained in a step ", most, " of all, left ", w.energy().total() / start, ", deepest ", deepest, " m, ",
                 std::string_view(w.awake() == 0 ? "asleep" : "awake"), ", held ", w.held());
+    }
+}
+
+TEST_CASE("case 81: of bodies alone in a room none gains energy by bouncing, however lively and rough") {
+    for (const double gravity : {0.0, kG}) {
+        double most = 0, left = 0;
+        int hits = 0;
+        Random random(9);
+        for (int i = 0; i < 48; ++i) {
+            const double restitution = std::array{0.6, 0.8, 0.95, 1.0}[static_cast<std::size_t>(i % 4)], friction = random.in(0, 1);
+            Scene s = scene(1.0 / 120, restitution, friction, gravity);
+            add(s, "subtract", {}, {0});
+            add(s, "box", {}, {4.4, 4.4, 4.4, 0}, 0), add(s, "box", {}, {4, 4, 4, 0}, 0);
+            const auto any = [&](double x) {
+                const double a = random.in(-x, x), b = random.in(-x, x), c = random.in(-x, x);
+                return glm::dvec3{a, b, c};
+            };
+            Object& o = s.objects[bodyOf(s, kKinds[i / 4 % 4], any(1), 0.4)];
+            o.vel = any(3), o.spin = any(10), o.rot = any(180);
+            PhysicsWorld w(s);
+            const double start = w.energy().kinetic + 2 * gravity * w.bodies()[0].mass();
+            while (w.time_s() < 2) most = std::max(most, gainOfStep(w) / start);
+            hits += static_cast<int>(w.impacts());
+            if (restitution == 1 && friction < 0.5) left = std::max(left, (w.energy().kinetic + gravity * w.bodies()[0].mass() * (2 + w.bodies()[0].position.y)) / start);
+        }
+        CAPTURE(gravity);
+        CHECK(hits > 50);
+        CHECK(most <= 1e-7);
+        CHECK(left > 0.5);  // it bounces all the same
+        MESSAGE("gravity ", gravity, ": most gained in a step ", most, " of all, in ", hits, " impacts");
     }
 }

@@ -118,3 +118,18 @@ TEST_CASE("case 83: speeds are capped and said, and what leaves the world is cou
         w.step();
     }
 }
+
+TEST_CASE("case 66: what has thin walls falls as far as what has none, held in no step") {
+    for (const double wall : {1e-2, 1e-4, 1e-6}) {
+        Scene s = scene(1.0 / 120, 0, 0.5);
+        floor(s);
+        add(s, "shell", {0, 6, 0}, {wall}).mass = 1;
+        add(s, "sphere", {}, {1}, static_cast<int>(s.objects.size()) - 1);
+        PhysicsWorld w(s);
+        run(w, 1);
+        CAPTURE(wall);
+        CHECK(std::fabs(w.bodies()[0].position.y - (6 - 0.5 * kG)) <= 1e-9);
+        CHECK(w.held() == 0);
+        CHECK(w.counts().evaluations < 1'000'000);
+    }
+}
