@@ -125,6 +125,18 @@ const Rest kRests[] = {
         add(s, "subtract", {}, {0});
         block(s, {1.4, 0.4, 1.4}, 0), add(s, "cylinder", {}, {0.15, 2, 0}, 0);
      }, {0, 0.45, 0}},
+    {"subtract: on the floor of a recess whose cutter hardly stands out of it", [](Scene& s) {
+        add(s, "subtract", {}, {0});
+        block(s, {1.4, 0.4, 1.4}, 0), block(s, {1, 0.12, 1}, 0, {0, 0.16, 0});
+     }, {0.1, 0.6, 0}},
+    {"subtract: on the rim of a round hole whose cutter is almost flush", [](Scene& s) {
+        add(s, "subtract", {}, {0});
+        block(s, {1.4, 0.1, 1.4}, 0), add(s, "cylinder", {}, {0.15, 0.102, 0}, 0);
+     }, {0, 0.45, 0}},
+    {"displace: between waves", [](Scene& s) {
+        add(s, "displace", {}, {0.05, 6});
+        block(s, {1.4, 0.4, 1.4}, 0);
+     }, {0.1, 0.6, 0.1}},
     {"intersect: between the rims of two lenses", [](Scene& s) {
         add(s, "union", {}, {0});
         for (const double x : {-0.3, 0.3}) {
