@@ -62,8 +62,9 @@ constexpr Carved kCarved[] = {
 }  // namespace
 
 TEST_CASE("a ball that overlaps what was carved or deformed is known to, as deep as rays find") {
-    for (const auto& [name, objects] : kCarved) {
-        const Scene s = read(objects);
+    for (const Carved& carved : kCarved) {
+        const std::string_view name = carved.name;
+        const Scene s = read(carved.objects);
         std::vector<std::string> notes;
         const StaticField field(s, [](std::size_t) { return true; }, notes);
         const Tree tree = makeTree(s);
